@@ -1,0 +1,63 @@
+//! Cost of a time step of the impact solver, in point-steps a second: elastic and J2 bodies, degrees 1 to 3.
+
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use impactlaw::impact::kernel::Purpose;
+use impactlaw::impact::setup::build;
+use impactlaw::material::flow::PerfectlyPlastic;
+use impactlaw::material::stress::{Constitutive, Elastic, J2, Moduli};
+use impactlaw::plan::Grid;
+use impactlaw::space::Axisymmetric;
+use std::hint::black_box;
+
+fn grid(degree: usize) -> Grid {
+    Grid {
+        degree,
+        points_per_direction: degree.max(2),
+        fine: 0.012,
+        fine_width: 0.25,
+        fine_depth: 0.12,
+        growth: 1.15,
+        coarse: 0.1,
+        dt_share: 1.0,
+    }
+}
+
+/// One sweep over the points: gather, stress, scatter.
+fn sweep<M: Constitutive<Axisymmetric>, const P: usize, const N: usize>(
+    c: &mut Criterion,
+    name: &str,
+    material: M,
+) {
+    let mut model = build::<M, P, N>(&grid(P), material, 1e-9);
+    let nodes = model.mass.len();
+    let u: Vec<[f64; 2]> = (0..nodes)
+        .map(|n| [0.0, 1e-3 * (0.1 * n as f64).sin()])
+        .collect();
+    let mut force = vec![[0.0; 2]; nodes];
+    let mut group = c.benchmark_group("sweep");
+    group.throughput(Throughput::Elements(model.points.count() as u64));
+    group.bench_function(name, |b| {
+        b.iter(|| model.points.sweep(Purpose::Step, black_box(&u), &mut force));
+    });
+    group.finish();
+}
+
+fn sweeps(c: &mut Criterion) {
+    let moduli = Moduli::new(1.0, 0.35);
+    let elastic = Elastic { moduli };
+    let flow = PerfectlyPlastic { strength: 0.0125 };
+    let j2 = J2 { moduli, flow };
+    // the same field yields everywhere here: the worst case of the return
+    let soft = J2 {
+        moduli,
+        flow: PerfectlyPlastic { strength: 1e-5 },
+    };
+    sweep::<_, 2, 9>(c, "quadratic elastic", elastic);
+    sweep::<_, 1, 4>(c, "linear J2", j2);
+    sweep::<_, 2, 9>(c, "quadratic J2", j2);
+    sweep::<_, 3, 16>(c, "cubic J2", j2);
+    sweep::<_, 2, 9>(c, "quadratic J2, all points yielding", soft);
+}
+
+criterion_group!(benches, sweeps);
+criterion_main!(benches);

@@ -1,0 +1,336 @@
+//! Step of a bed: forces at the time of the positions, then a kick and a drift, of grains and bodies on one clock.
+
+use super::contacts::Contacts;
+use super::grains::{Grains, Motion, Sphere, Spin};
+use super::law::{ContactLaw, Losses};
+use super::machine::{Load, Machine};
+use super::normals::{NormalModel, Squeeze};
+use super::surfaces::Surfaces;
+use crate::{Error, Result};
+use parry3d::math::{Pose, Vector};
+use rayon::prelude::*;
+
+/// Grains moved by one task.
+const CHUNK: usize = 256;
+
+/// Work done on the bed from outside, J.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Outside {
+    /// By driven bodies on grains.
+    pub driven: f64,
+    /// By changes of the law while grains touch.
+    pub stiffening: f64,
+}
+
+/// Normal laws of a bed.
+pub struct Normals {
+    /// Between two grains.
+    pub pair: Box<dyn NormalModel>,
+    /// Of a grain on a surface.
+    pub wall: Box<dyn NormalModel>,
+}
+
+/// What a bed is made of, its law apart.
+pub struct Parts {
+    /// Grains.
+    pub grains: Grains,
+    /// Bodies.
+    pub machine: Machine,
+    /// Gravity, m/s2.
+    pub gravity: Vector,
+    /// Time step, s.
+    pub dt: f64,
+    /// Distance up to which neighbours are listed, m: larger lists are longer, but last.
+    pub skin: f64,
+}
+
+/// A bed of grains among bodies; `C` are the effects of its contacts.
+pub struct Bed<C: ContactLaw> {
+    /// Effects around the normal laws.
+    pub law: C,
+    /// Grains.
+    pub grains: Grains,
+    /// Everything else.
+    pub machine: Machine,
+    /// Contacts between grains.
+    pub contacts: Contacts<C>,
+    /// Contacts of grains with bodies.
+    pub surfaces: Surfaces<C>,
+    /// Gravity, m/s2.
+    pub gravity: Vector,
+    /// Time step, s.
+    pub dt: f64,
+    /// Time of the positions, s.
+    pub time: f64,
+    /// Steps done.
+    pub step: u64,
+    /// Loads of the grains on each body at the time of the positions.
+    pub loads: Vec<Load>,
+    /// Work done from outside.
+    pub outside: Outside,
+    skin: f64,
+    before: Vec<Load>,
+    listed: Listed,
+    /// Forces are those of the positions.
+    fresh: bool,
+}
+
+/// Where everything was when neighbours were listed, and how far the grains have come since.
+#[derive(Debug, Clone, PartialEq, Default)]
+struct Listed {
+    centres: Vec<Vector>,
+    poses: Vec<Pose>,
+    /// Largest squared distance in each chunk of grains, m2.
+    moved: Vec<f64>,
+    /// Neighbours must be listed before the next step.
+    due: bool,
+}
+
+impl<C: ContactLaw> Bed<C> {
+    /// Bed in the state of its parts, with no contact history.
+    #[must_use]
+    pub fn new(law: C, normals: Normals, parts: Parts) -> Self {
+        let bodies = parts.machine.stations.len();
+        Self {
+            law,
+            grains: parts.grains,
+            machine: parts.machine,
+            contacts: Contacts::new(normals.pair),
+            surfaces: Surfaces::new(normals.wall),
+            gravity: parts.gravity,
+            dt: parts.dt,
+            time: 0.0,
+            step: 0,
+            loads: vec![Load::default(); bodies],
+            outside: Outside::default(),
+            skin: parts.skin,
+            before: vec![Load::default(); bodies],
+            listed: Listed {
+                due: true,
+                ..Listed::default()
+            },
+            fresh: false,
+        }
+    }
+
+    /// One step of the clock.
+    ///
+    /// # Errors
+    /// [`Error::Bed`] when a place is no longer a number.
+    pub fn step(&mut self) -> Result<()> {
+        self.evaluate()?;
+        self.advance()
+    }
+
+    /// Brings every force to the time of the positions, once: work is booked with it.
+    ///
+    /// # Errors
+    /// [`Error::Bed`] when a grain's place is no longer a number.
+    pub fn evaluate(&mut self) -> Result<()> {
+        if std::mem::replace(&mut self.fresh, true) {
+            return Ok(());
+        }
+        if self.relist_due()? {
+            self.relist();
+        }
+        let (grains, machine, dt) = (&self.grains, &self.machine, self.dt);
+        let (contacts, surfaces, law) = (&mut self.contacts, &mut self.surfaces, &self.law);
+        if contacts.is_small() {
+            contacts.evaluate(law, grains, dt);
+            surfaces.evaluate(law, grains, machine, dt);
+        } else {
+            rayon::join(
+                || contacts.evaluate(law, grains, dt),
+                || surfaces.evaluate(law, grains, machine, dt),
+            );
+        }
+        self.load_bodies();
+        Ok(())
+    }
+
+    /// Moves grains and bodies on by one time step under the present forces.
+    ///
+    /// # Errors
+    /// [`Error::Bed`] when a body's place is no longer a number.
+    pub fn advance(&mut self) -> Result<()> {
+        self.kick_and_drift();
+        self.machine
+            .step(&self.loads, self.dt)
+            .map_err(|_| self.broken("a body"))?;
+        self.machine.view();
+        self.time += self.dt;
+        self.step += 1;
+        self.fresh = false;
+        Ok(())
+    }
+
+    /// Neighbours are listed and forces evaluated anew, after a body was moved by hand.
+    pub fn list_again(&mut self) {
+        self.listed.due = true;
+        self.fresh = false;
+    }
+
+    fn relist_due(&self) -> Result<bool> {
+        let moved = self
+            .listed
+            .moved
+            .iter()
+            .fold(0.0f64, |m, &x| if x <= m { m } else { x })
+            .sqrt();
+        if !moved.is_finite() {
+            return Err(self.broken("a grain"));
+        }
+        let bodies = self.machine.moved_since(&self.listed.poses);
+        Ok(self.listed.due || 2.0 * moved > self.skin || moved + bodies > self.skin)
+    }
+
+    fn broken(&self, what: &str) -> Error {
+        Error::Bed {
+            step: self.step,
+            reason: format!("the place of {what} is no longer a number; reduce the time step"),
+        }
+    }
+
+    fn relist(&mut self) {
+        self.contacts.relist(&mut self.grains, self.skin);
+        self.surfaces
+            .relist(&mut self.grains, &self.machine, self.skin);
+        self.listed = Listed {
+            centres: self.grains.spheres.iter().map(|s| s.centre).collect(),
+            poses: self.machine.surfaces.iter().map(|s| s.pose).collect(),
+            moved: vec![0.0; self.grains.len().div_ceil(CHUNK)],
+            due: false,
+        };
+    }
+
+    /// Sums the loads on bodies; books what driven bodies spent since the last step.
+    fn load_bodies(&mut self) {
+        std::mem::swap(&mut self.loads, &mut self.before);
+        self.surfaces.load_into(&self.machine, &mut self.loads);
+        for ((station, now), before) in self
+            .machine
+            .stations
+            .iter()
+            .zip(&self.loads)
+            .zip(&self.before)
+        {
+            if station.driven {
+                let power = (now.force + before.force).dot(station.velocity)
+                    + (now.torque + before.torque).dot(station.spin);
+                self.outside.driven -= 0.5 * self.dt * power;
+            }
+        }
+    }
+
+    /// Force and torque of all contacts on a grain, without gravity.
+    #[inline(always)]
+    #[must_use]
+    pub fn load(&self, grain: usize) -> (Vector, Vector) {
+        let (mut force, mut torque) = self.contacts.load(grain);
+        let (wall_force, wall_torque) = self.surfaces.load(grain);
+        force += wall_force;
+        torque += wall_torque;
+        (force, torque)
+    }
+
+    fn kick_and_drift(&mut self) {
+        let mut grains = std::mem::take(&mut self.grains);
+        let mut moved = std::mem::take(&mut self.listed.moved);
+        let bed = &*self;
+        let Grains {
+            spheres,
+            motions,
+            spins,
+            ..
+        } = &mut grains;
+        if let [moved] = &mut moved[..] {
+            *moved = bed.move_chunk(0, spheres, motions, spins);
+        } else {
+            spheres
+                .par_chunks_mut(CHUNK)
+                .zip(motions.par_chunks_mut(CHUNK))
+                .zip(spins.par_chunks_mut(CHUNK))
+                .zip(moved.par_iter_mut())
+                .enumerate()
+                .for_each(|(chunk, (((spheres, motions), spins), moved))| {
+                    *moved = bed.move_chunk(chunk * CHUNK, spheres, motions, spins);
+                });
+        }
+        self.grains = grains;
+        self.listed.moved = moved;
+    }
+
+    /// Kicks and drifts one chunk of grains; returns the largest squared distance from where they were listed.
+    fn move_chunk(
+        &self,
+        first: usize,
+        spheres: &mut [Sphere],
+        motions: &mut [Motion],
+        spins: &mut [Spin],
+    ) -> f64 {
+        let dt = self.dt;
+        let mut furthest = 0.0;
+        for (at, ((sphere, motion), spin)) in spheres.iter_mut().zip(motions).zip(spins).enumerate()
+        {
+            let (force, torque) = self.load(first + at);
+            motion.velocity += (force * motion.inverse_mass + self.gravity) * dt;
+            sphere.centre += motion.velocity * dt;
+            if C::ROTATES {
+                spin.rate += torque * (spin.inverse_inertia * dt);
+            }
+            let distance = (sphere.centre - self.listed.centres[first + at]).length_squared();
+            // a NaN must come through, so that the run stops
+            if !(distance <= furthest) {
+                furthest = distance;
+            }
+        }
+        furthest
+    }
+
+    /// Energy dissipated by effects so far; plastic flow is booked by contact.
+    #[must_use]
+    pub fn losses(&self) -> Losses {
+        let mut sum = self.contacts.losses();
+        sum += self.surfaces.losses();
+        sum
+    }
+
+    /// Starts the account of energy: what contacts hold now counts as put in before.
+    ///
+    /// Forces must be up to date ([`Bed::evaluate`]).
+    pub fn start_account(&mut self) {
+        let softening = self.law.softening();
+        for index in 0..self.contacts.memory.len() {
+            let held = softening * self.contacts.elastic_energy(index, self.squeeze_of(index));
+            let memory = &mut self.contacts.memory[index];
+            C::book_work(memory, held - C::work(memory));
+        }
+        self.surfaces.start_account(&self.grains, softening);
+    }
+
+    /// Makes contacts `factor` times as stiff as the material's: what touching contacts then hold more is booked as
+    /// work from outside.
+    pub fn soften(&mut self, factor: f64) {
+        let change = factor - self.law.softening();
+        self.law.soften(factor);
+        for index in 0..self.contacts.memory.len() {
+            if self.contacts.pushes[index].touches() {
+                let work = change * self.contacts.elastic_energy(index, self.squeeze_of(index));
+                C::book_work(&mut self.contacts.memory[index], work);
+                self.outside.stiffening += work;
+            }
+        }
+        self.outside.stiffening += self.surfaces.book_softening(&self.grains, change);
+    }
+
+    /// A listed pair as its normal law sees it; the overlap is negative if it is apart.
+    #[must_use]
+    pub fn squeeze_of(&self, pair: usize) -> Squeeze {
+        let [a, b] =
+            self.contacts.list.pairs[pair].map(|grain| self.grains.spheres[grain as usize]);
+        Squeeze {
+            overlap: a.radius + b.radius - (a.centre - b.centre).length(),
+            radii: [a.radius, b.radius],
+        }
+    }
+}

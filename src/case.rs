@@ -1,0 +1,390 @@
+//! Case file: what the user asks for, checked and in SI units.
+
+use crate::document::Document;
+use crate::material::{Flow, Material};
+use crate::unit::{self, Density, Length, Pressure, Quantity, Velocity};
+use crate::{Error, Result};
+use serde::Deserialize;
+use std::path::{Path, PathBuf};
+
+/// A checked case, SI units. Read with [`Case::read`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct Case {
+    /// Name: the file's stem.
+    pub name: String,
+    /// File it was read from.
+    pub path: PathBuf,
+    /// SHA-256 of the file's text, hexadecimal: provenance of everything made from it.
+    pub hash: String,
+    /// Particle radius R, m.
+    pub radius: f64,
+    /// Particle material.
+    pub material: Material,
+    /// Impact speeds, m/s, ascending.
+    pub velocities: Vec<f64>,
+    /// Accuracy asked for, relative, on F*, delta* and e.
+    pub tolerance: f64,
+    /// Bed scene to run with the law, resolved against the case file's folder.
+    pub bed: Option<PathBuf>,
+}
+
+/// The case file as it is written.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct CaseFile {
+    particle: ParticleTable,
+    material: MaterialTable,
+    impact: ImpactTable,
+    accuracy: AccuracyTable,
+    bed: Option<BedTable>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ParticleTable {
+    radius: Quantity<Length>,
+}
+
+/// Table `[material]`, in case and scene files alike.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct MaterialTable {
+    density: Quantity<Density>,
+    young_modulus: Quantity<Pressure>,
+    poisson_ratio: f64,
+    yield_strength: Option<Quantity<Pressure>>,
+    hardening_modulus: Option<Quantity<Pressure>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ImpactTable {
+    velocities: Vec<Quantity<Velocity>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct AccuracyTable {
+    tolerance: f64,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct BedTable {
+    scene: String,
+}
+
+impl Case {
+    /// Read and check a case file.
+    ///
+    /// # Errors
+    /// [`Error::File`] when it cannot be read; otherwise as [`Case::parse`].
+    pub fn read(path: &Path) -> Result<Self> {
+        Self::from_document(&Document::read(path)?)
+    }
+
+    /// Check the text of a case file; `path` is for messages, the name, and for files the case names.
+    ///
+    /// ```
+    /// use impactlaw::case::Case;
+    /// let case = Case::parse(r#"
+    ///     [particle]
+    ///     radius = "250 um"
+    ///     [material]
+    ///     density = "8000 kg/m3"
+    ///     young_modulus = "100 GPa"
+    ///     poisson_ratio = 0.35
+    ///     yield_strength = "1.25 GPa"
+    ///     [impact]
+    ///     velocities = ["50 m/s", "10 m/s"]
+    ///     [accuracy]
+    ///     tolerance = 0.02
+    /// "#, "cases/steel.toml".as_ref())?;
+    /// assert_eq!(case.name, "steel");
+    /// assert_eq!(case.velocities, [10.0, 50.0]);
+    /// # Ok::<(), impactlaw::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Syntax`] for an unknown or missing key or a value without unit, [`Error::Value`] for a value out of
+    /// range; both name key, what was found and what is allowed.
+    pub fn parse(text: &str, path: &Path) -> Result<Self> {
+        Self::from_document(&Document::new(path, text))
+    }
+
+    /// Check a case file that has been read already.
+    ///
+    /// # Errors
+    /// As [`Case::parse`].
+    pub fn from_document(document: &Document) -> Result<Self> {
+        let file: CaseFile = document.parse()?;
+        Ok(Case {
+            name: document.name(),
+            path: document.path().to_owned(),
+            hash: document.hash(),
+            radius: document.positive("particle.radius", file.particle.radius)?,
+            material: file.material.check(document)?,
+            velocities: file.impact.check(document)?,
+            tolerance: document.check(
+                "accuracy.tolerance",
+                file.accuracy.tolerance,
+                |tolerance| tolerance > 0.0 && tolerance <= 0.2,
+                "must lie in (0, 0.2], e.g. 0.02 for two per cent",
+            )?,
+            bed: file.bed.map(|bed| bed.check(document)).transpose()?,
+        })
+    }
+
+    /// The case with the speeds of `--velocity`, when any are given.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for a text that is not a positive speed, or for one given twice.
+    pub fn with_velocities(mut self, texts: &[String]) -> Result<Self> {
+        if texts.is_empty() {
+            return Ok(self);
+        }
+        let reject = |text: &str, allowed: &str| Error::Argument {
+            argument: "--velocity".to_owned(),
+            found: format!("\"{text}\""),
+            allowed: allowed.to_owned(),
+        };
+        self.velocities.clear();
+        for text in texts {
+            let velocity = unit::argument::<Velocity>("--velocity", text)?;
+            if velocity <= 0.0 {
+                return Err(reject(text, "must be positive, e.g. \"10 m/s\""));
+            }
+            if self.velocities.contains(&velocity) {
+                return Err(reject(text, "must be given once"));
+            }
+            self.velocities.push(velocity);
+        }
+        self.velocities.sort_by(f64::total_cmp);
+        Ok(self)
+    }
+}
+
+impl MaterialTable {
+    pub(crate) fn check(self, document: &Document) -> Result<Material> {
+        let young_modulus = document.positive("material.young_modulus", self.young_modulus)?;
+        Ok(Material {
+            density: document.positive("material.density", self.density)?,
+            young_modulus,
+            poisson_ratio: document.check(
+                "material.poisson_ratio",
+                self.poisson_ratio,
+                |nu| (0.0..0.5).contains(&nu),
+                "must lie in [0, 0.5)",
+            )?,
+            flow: self.flow(document, young_modulus)?,
+        })
+    }
+
+    fn flow(&self, document: &Document, young_modulus: f64) -> Result<Option<Flow>> {
+        const HARDENING: &str = "material.hardening_modulus";
+        let Some(yield_strength) = self.yield_strength else {
+            return match self.hardening_modulus {
+                Some(_) => Err(document.reject(
+                    HARDENING,
+                    "needs a `yield_strength` beside it: without one the body is elastic",
+                )),
+                None => Ok(None),
+            };
+        };
+        let below_modulus = format!(
+            "must be positive and below young_modulus ({})",
+            unit::engineering(young_modulus, "Pa", 4)
+        );
+        let yield_strength = document.check(
+            "material.yield_strength",
+            yield_strength.si(),
+            |y| y > 0.0 && y < young_modulus,
+            &below_modulus,
+        )?;
+        let hardening_modulus = match self.hardening_modulus {
+            Some(h) => document.non_negative(HARDENING, h)?,
+            None => 0.0,
+        };
+        Ok(Some(Flow {
+            yield_strength,
+            hardening_modulus,
+        }))
+    }
+}
+
+impl ImpactTable {
+    pub(crate) fn check(&self, document: &Document) -> Result<Vec<f64>> {
+        if self.velocities.is_empty() {
+            return Err(document.reject(
+                "impact.velocities",
+                "must hold at least one speed, e.g. [\"10 m/s\"]",
+            ));
+        }
+        let mut velocities = Vec::with_capacity(self.velocities.len());
+        for (i, &quantity) in self.velocities.iter().enumerate() {
+            let key = format!("impact.velocities[{i}]");
+            let velocity = document.positive(&key, quantity)?;
+            if velocities.contains(&velocity) {
+                return Err(document.reject(&key, "must be given once"));
+            }
+            velocities.push(velocity);
+        }
+        velocities.sort_by(f64::total_cmp);
+        Ok(velocities)
+    }
+}
+
+impl BedTable {
+    fn check(&self, document: &Document) -> Result<PathBuf> {
+        let path = document.resolve(&self.scene);
+        if path.is_file() {
+            Ok(path)
+        } else {
+            Err(document.reject(
+                "bed.scene",
+                format!(
+                    "must name an existing file ({} does not exist)",
+                    path.display()
+                ),
+            ))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const GOOD: &str = r#"
+[particle]
+radius = "250 um"
+[material]
+density = "8000 kg/m3"
+young_modulus = "100 GPa"
+poisson_ratio = 0.35
+yield_strength = "1.25 GPa"
+hardening_modulus = "2 GPa"
+[impact]
+velocities = ["50 m/s", "10 m/s"]
+[accuracy]
+tolerance = 0.02
+"#;
+
+    fn error(from: &str, to: &str) -> String {
+        assert!(GOOD.contains(from), "{from}");
+        Case::parse(&GOOD.replace(from, to), Path::new("c.toml"))
+            .unwrap_err()
+            .to_string()
+    }
+
+    #[test]
+    fn a_good_case_is_in_si_and_ascending() {
+        let case = Case::parse(GOOD, Path::new("cases/c.toml")).unwrap();
+        assert_eq!(case.name, "c");
+        assert_eq!(case.radius, 250e-6);
+        assert_eq!(case.material.young_modulus, 100e9);
+        assert_eq!(case.material.flow.unwrap().hardening_modulus, 2e9);
+        assert_eq!(case.velocities, [10.0, 50.0]);
+        assert_eq!(case.hash.len(), 64);
+    }
+
+    #[test]
+    fn without_yield_strength_the_body_is_elastic() {
+        let elastic = GOOD.replace("yield_strength = \"1.25 GPa\"\n", "");
+        let text = elastic.replace("hardening_modulus = \"2 GPa\"\n", "");
+        assert_eq!(
+            Case::parse(&text, Path::new("c")).unwrap().material.flow,
+            None
+        );
+        let error = Case::parse(&elastic, Path::new("c")).unwrap_err();
+        assert!(
+            error.to_string().contains("needs a `yield_strength`"),
+            "{error}"
+        );
+    }
+
+    #[test]
+    fn values_out_of_range_name_key_found_and_allowed() {
+        for (from, to, key, found) in [
+            (
+                "\"250 um\"",
+                "\"-250 um\"",
+                "particle.radius",
+                "\"-250 um\"",
+            ),
+            (
+                "\"8000 kg/m3\"",
+                "\"0 kg/m3\"",
+                "material.density",
+                "\"0 kg/m3\"",
+            ),
+            (
+                "\"100 GPa\"",
+                "\"-1 GPa\"",
+                "material.young_modulus",
+                "\"-1 GPa\"",
+            ),
+            ("0.35", "0.5", "material.poisson_ratio", "0.5"),
+            ("0.35", "-0.1", "material.poisson_ratio", "-0.1"),
+            ("0.35", "nan", "material.poisson_ratio", "nan"),
+            (
+                "\"1.25 GPa\"",
+                "\"101 GPa\"",
+                "material.yield_strength",
+                "\"101 GPa\"",
+            ),
+            (
+                "\"2 GPa\"",
+                "\"-2 GPa\"",
+                "material.hardening_modulus",
+                "\"-2 GPa\"",
+            ),
+            (
+                "\"50 m/s\"",
+                "\"0 m/s\"",
+                "impact.velocities[0]",
+                "\"0 m/s\"",
+            ),
+            (
+                "\"50 m/s\"",
+                "\"1000 cm/s\"",
+                "impact.velocities[1]",
+                "\"10 m/s\"",
+            ),
+            ("[\"50 m/s\", \"10 m/s\"]", "[]", "impact.velocities", "[]"),
+            ("0.02", "0", "accuracy.tolerance", "0"),
+            ("0.02", "0.3", "accuracy.tolerance", "0.3"),
+        ] {
+            let text = error(from, to);
+            let start = format!("c.toml: `{key}`: found {found}; ");
+            assert!(text.starts_with(&start), "{text}");
+        }
+    }
+
+    #[test]
+    fn the_bed_scene_must_exist_beside_the_case() {
+        let text = format!("{GOOD}[bed]\nscene = \"no-such-scene.toml\"\n");
+        let error = Case::parse(&text, Path::new("cases/c.toml")).unwrap_err();
+        assert!(
+            error
+                .to_string()
+                .contains("cases/no-such-scene.toml does not exist"),
+            "{error}"
+        );
+    }
+
+    #[test]
+    fn the_command_line_replaces_the_speeds() {
+        let case = || Case::parse(GOOD, Path::new("c.toml")).unwrap();
+        let with = |texts: &[&str]| {
+            let texts: Vec<String> = texts.iter().map(|text| (*text).to_owned()).collect();
+            case().with_velocities(&texts)
+        };
+        assert_eq!(with(&[]).unwrap().velocities, [10.0, 50.0]);
+        assert_eq!(with(&["3 m/s", "1 m/s"]).unwrap().velocities, [1.0, 3.0]);
+        for bad in [&["3"][..], &["0 m/s"], &["-1 m/s"], &["3 m/s", "3 m/s"]] {
+            let text = with(bad).unwrap_err().to_string();
+            assert!(text.starts_with("--velocity: found"), "{text}");
+        }
+    }
+}

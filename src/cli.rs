@@ -1,0 +1,184 @@
+//! Command line: the clap types, one struct a verb. Verbs are the arrows of the data flow.
+
+use clap::{Args, Parser, Subcommand};
+use std::path::PathBuf;
+
+/// Contact laws for discrete-element codes, from simulated impacts of yielding particles.
+#[derive(Debug, Parser)]
+#[command(version, about, propagate_version = true)]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub verb: Verb,
+    /// Worker threads (0: all cores). Results do not depend on it.
+    #[arg(long, global = true, default_value_t = 0)]
+    pub threads: usize,
+    /// Say more: -v progress of every stage, -vv solver detail.
+    #[arg(short, long, global = true, action = clap::ArgAction::Count)]
+    pub verbose: u8,
+    /// Say nothing but errors.
+    #[arg(short, long, global = true, conflicts_with = "verbose")]
+    pub quiet: bool,
+}
+
+/// The verbs.
+#[derive(Debug, Subcommand)]
+pub enum Verb {
+    /// Whole path: plan, impacts, fit, comparison, bed, report.
+    Run(RunArgs),
+    /// Print what would be run, why, and the predicted seconds.
+    Plan(PlanArgs),
+    /// Simulate the impacts of a case: `curve.csv` and `summary.json` for each speed.
+    Impact(ImpactArgs),
+    /// Fit a contact law to simulated impacts: `law.toml`.
+    Fit(FitArgs),
+    /// Hold a law and the theories against simulated impacts: `compare.csv`, table, plots.
+    Compare(CompareArgs),
+    /// Evaluate a theory: force against displacement, or restitution against velocity, as CSV.
+    Theory(TheoryArgs),
+    /// Run a granular bed from a scene file.
+    Bed(BedArgs),
+    /// Run a grid of cases, equal dimensionless groups once: `results.csv`. Finished runs are kept and not repeated.
+    Study(StudyArgs),
+    /// Work with a law file.
+    Law {
+        /// What to do with it.
+        #[command(subcommand)]
+        verb: LawVerb,
+    },
+}
+
+/// Verbs on a law file.
+#[derive(Debug, Subcommand)]
+pub enum LawVerb {
+    /// Print F(delta) as CSV: the law at rest, without the inertia term of a fast first loading.
+    Eval(LawEvalArgs),
+}
+
+/// Arguments of `run`.
+#[derive(Debug, Args)]
+pub struct RunArgs {
+    /// Case file.
+    pub case: PathBuf,
+    /// Output folder (default: `out/<case name>`).
+    #[arg(short, long)]
+    pub out: Option<PathBuf>,
+    /// Leave the bed out, even if the case names a scene.
+    #[arg(long)]
+    pub no_bed: bool,
+    /// Seed of everything random (bed insertion), instead of the scene's.
+    #[arg(long)]
+    pub seed: Option<u64>,
+}
+
+/// Arguments of `plan`.
+#[derive(Debug, Args)]
+pub struct PlanArgs {
+    /// Case file.
+    pub case: PathBuf,
+    /// Speeds instead of the case's, e.g. `--velocity "10 m/s"`.
+    #[arg(long)]
+    pub velocity: Vec<String>,
+}
+
+/// Arguments of `impact`.
+#[derive(Debug, Args)]
+pub struct ImpactArgs {
+    /// Case file.
+    pub case: PathBuf,
+    /// Speeds instead of the case's, e.g. `--velocity "10 m/s"`.
+    #[arg(long)]
+    pub velocity: Vec<String>,
+    /// Output folder (default: `out/<case name>`).
+    #[arg(short, long)]
+    pub out: Option<PathBuf>,
+}
+
+/// Arguments of `fit`.
+#[derive(Debug, Args)]
+pub struct FitArgs {
+    /// Case file the impacts were made from.
+    pub case: PathBuf,
+    /// Folder that holds the `impact_V*` folders (default: `out/<case name>`).
+    #[arg(short, long)]
+    pub impacts: Option<PathBuf>,
+    /// Law file to write (default: `law.toml` in that folder).
+    #[arg(short, long)]
+    pub out: Option<PathBuf>,
+}
+
+/// Arguments of `compare`.
+#[derive(Debug, Args)]
+pub struct CompareArgs {
+    /// Case file the impacts were made from.
+    pub case: PathBuf,
+    /// Law file (default: `law.toml` in the impacts' folder).
+    #[arg(short, long)]
+    pub law: Option<PathBuf>,
+    /// Folder that holds the `impact_V*` folders (default: `out/<case name>`).
+    #[arg(short, long)]
+    pub impacts: Option<PathBuf>,
+    /// Output folder (default: the impacts' folder).
+    #[arg(short, long)]
+    pub out: Option<PathBuf>,
+}
+
+/// Arguments of `theory`.
+#[derive(Debug, Args)]
+pub struct TheoryArgs {
+    /// Model name, e.g. `hertz`, `thornton`, `kogut-etsion`.
+    pub model: String,
+    /// Case file: radius and material.
+    pub case: PathBuf,
+    /// Displacements with units, e.g. `"1 um"`; prints `displacement_m,force_N,contact_radius_m`.
+    #[arg(long, num_args = 1.., value_delimiter = ',')]
+    pub displacements: Vec<String>,
+    /// Largest displacement reached before: the displacements lie on the unloading branch.
+    #[arg(long)]
+    pub max_displacement: Option<String>,
+    /// Speeds with units; prints `velocity_m_s,restitution`.
+    #[arg(long, num_args = 1.., value_delimiter = ',', conflicts_with = "displacements")]
+    pub velocities: Vec<String>,
+}
+
+/// Arguments of `bed`.
+#[derive(Debug, Args)]
+pub struct BedArgs {
+    /// Scene file.
+    pub scene: PathBuf,
+    /// Law file for the grains whose law the scene calls `fitted`.
+    #[arg(short, long)]
+    pub law: Option<PathBuf>,
+    /// Output folder (default: `out/<scene name>`).
+    #[arg(short, long)]
+    pub out: Option<PathBuf>,
+    /// Seed of the insertion, instead of the scene's.
+    #[arg(long)]
+    pub seed: Option<u64>,
+}
+
+/// Arguments of `study`.
+#[derive(Debug, Args)]
+pub struct StudyArgs {
+    /// Study file.
+    pub study: PathBuf,
+    /// Output folder; by default `out/` and the study's name.
+    #[arg(short, long)]
+    pub out: Option<PathBuf>,
+}
+
+/// Arguments of `law eval`.
+#[derive(Debug, Args)]
+pub struct LawEvalArgs {
+    /// Law file.
+    pub law: PathBuf,
+    /// Radius of the body with unit, e.g. `"250 um"`.
+    #[arg(long)]
+    pub body: String,
+    /// Displacements with units, e.g. `"1 um"`.
+    #[arg(long, num_args = 1.., value_delimiter = ',', required = true)]
+    pub displacements: Vec<String>,
+    /// Largest displacement reached before: the displacements lie on the unloading branch.
+    #[arg(long)]
+    pub max_displacement: Option<String>,
+}

@@ -1,0 +1,74 @@
+//! `compare`: from impacts and a law file to `compare.csv` and `compare.md`.
+
+use super::fit::read_impacts;
+use super::{Context, check_writable, print};
+use crate::Result;
+use crate::case::Case;
+use crate::cli::CompareArgs;
+use crate::compare::Comparison;
+use crate::contact::{LawVisitor, NormalLaw};
+use crate::law::{Form, LawFile};
+use std::path::Path;
+
+/// Run the verb: write both files and print the summary over all speeds.
+///
+/// # Errors
+/// Those of reading the case, the impacts and the law, and of writing the files.
+pub fn run(args: &CompareArgs, context: &Context) -> Result<()> {
+    let case = Case::read(&args.case)?;
+    let folder = args
+        .impacts
+        .clone()
+        .unwrap_or_else(|| Path::new("out").join(&case.name));
+    let law = args.law.clone().unwrap_or_else(|| folder.join("law.toml"));
+    let file = LawFile::read(&law)?;
+    let impacts = read_impacts(&folder, &case)?;
+    let out = args.out.clone().unwrap_or(folder);
+    check_writable(&out)?;
+    if file.material() != case.material {
+        tracing::warn!(
+            "{} was made for another material than {}",
+            law.display(),
+            case.path.display()
+        );
+    }
+    let mut comparison = Comparison::new(&case.material, case.radius, &impacts);
+    add_fitted(&mut comparison, &file)?;
+    comparison.add_theories();
+    comparison.write(&out, &context.provenance(&case.hash))?;
+    print(&comparison.summary_markdown())
+}
+
+/// Add the law of a file: `fitted` in the form the file names, and `fitted-closed-form` or `fitted-spline` for the
+/// other form.
+///
+/// # Errors
+/// As [`LawFile::law`].
+pub fn add_fitted(comparison: &mut Comparison, file: &LawFile) -> Result<()> {
+    file.law()?.visit(Added(comparison, "fitted"));
+    let others = [
+        (
+            Form::ClosedForm,
+            "fitted-closed-form",
+            file.closed_form.is_some(),
+        ),
+        (Form::Spline, "fitted-spline", file.spline.is_some()),
+    ];
+    for (form, name, present) in others {
+        if present && form != file.form {
+            file.law_in(form)?.visit(Added(comparison, name));
+        }
+    }
+    Ok(())
+}
+
+/// Adds the visited law under a name.
+struct Added<'a>(&'a mut Comparison, &'static str);
+
+impl LawVisitor for Added<'_> {
+    type Output = ();
+
+    fn visit<L: NormalLaw>(self, law: &L) {
+        self.0.add(self.1, law);
+    }
+}

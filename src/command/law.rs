@@ -1,0 +1,72 @@
+//! `law eval`: the force of a law file at given displacements, as CSV.
+
+use super::{Context, Verdict, print};
+use crate::Result;
+use crate::cli::{LawEvalArgs, LawVerb};
+use crate::contact::{LawVisitor, NormalLaw};
+use crate::law::LawFile;
+use crate::unit::{Length, argument};
+use crate::{Error, unit::Dimension};
+use std::fmt::Write;
+
+/// Run the verb.
+///
+/// # Errors
+/// Those of the law file, and [`Error::Argument`] for quantities that are not lengths.
+pub fn run(verb: &LawVerb, _context: &Context) -> Result<Verdict> {
+    match verb {
+        LawVerb::Eval(args) => eval(args),
+    }
+}
+
+/// Print `displacement_m,force_N` of the rate-independent core (displacements alone tell no rate); a warning where the law is used outside the range of its impacts.
+fn eval(args: &LawEvalArgs) -> Result<Verdict> {
+    let law = LawFile::read(&args.law)?.law()?;
+    let radius = positive::<Length>("--body", &args.body)?;
+    let most = match &args.max_displacement {
+        Some(text) => argument::<Length>("--max-displacement", text)?,
+        None => 0.0,
+    };
+    let displacements = args
+        .displacements
+        .iter()
+        .map(|text| argument::<Length>("--displacements", text))
+        .collect::<Result<Vec<f64>>>()?;
+    let limit = law.visit(ValidTo) * radius;
+    let outside = displacements.iter().filter(|d| d.max(most) > limit).count();
+    if outside > 0 {
+        tracing::warn!(
+            "{outside} of the displacements lie beyond {limit:e} m, the largest the law was fitted to"
+        );
+    }
+    let mut text = "displacement_m,force_N\n".to_owned();
+    for displacement in displacements {
+        let force = law.force(radius, displacement, most);
+        let _ = writeln!(text, "{displacement:e},{force:e}");
+    }
+    print(&text)?;
+    Ok(Verdict::Met)
+}
+
+fn positive<D: Dimension>(name: &str, text: &str) -> Result<f64> {
+    let value = argument::<D>(name, text)?;
+    if value > 0.0 {
+        return Ok(value);
+    }
+    Err(Error::Argument {
+        argument: name.to_owned(),
+        found: format!("\"{text}\""),
+        allowed: "must be positive".to_owned(),
+    })
+}
+
+/// Largest flattening the law's impacts cover.
+struct ValidTo;
+
+impl LawVisitor for ValidTo {
+    type Output = f64;
+
+    fn visit<L: NormalLaw>(self, law: &L) -> f64 {
+        law.valid_to()
+    }
+}

@@ -1,0 +1,179 @@
+//! Commands: what each verb of the command line does, from its input files to its output files.
+
+pub mod bed;
+pub mod compare;
+pub mod diagnostic;
+pub mod fit;
+pub mod impact;
+pub mod law;
+pub mod plan;
+pub mod run;
+pub mod show;
+pub mod study;
+pub mod theory;
+
+use crate::{Error, Result};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// What a command knows besides its own arguments.
+#[derive(Debug, Clone)]
+pub struct Context {
+    /// The command as it was given, for provenance.
+    pub command: String,
+    /// `-q`: say nothing but errors.
+    pub quiet: bool,
+}
+
+/// How a command that ran to its end came out; the exit code.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    /// Every stated threshold is met.
+    Met,
+    /// The result fails a stated threshold.
+    Missed,
+}
+
+impl From<()> for Verdict {
+    fn from((): ()) -> Self {
+        Verdict::Met
+    }
+}
+
+impl Context {
+    /// Context of this process.
+    #[must_use]
+    pub fn of_process(quiet: bool) -> Self {
+        let words = std::env::args().skip(1).map(|word| quoted(&word));
+        let command = std::iter::once("impactlaw".to_owned())
+            .chain(words)
+            .collect::<Vec<_>>()
+            .join(" ");
+        Context { command, quiet }
+    }
+
+    /// One line that says what made a file: program version, hash of the case, command.
+    #[must_use]
+    pub fn provenance(&self, case_hash: &str) -> String {
+        format!(
+            "{}; case sha256 {case_hash}; {}",
+            crate::PROGRAM,
+            self.command
+        )
+    }
+
+    /// Progress on stderr; draws nothing with `-q` or where stderr is no terminal.
+    #[must_use]
+    pub fn progress(&self, length: u64, what: &'static str) -> ProgressBar {
+        let bar = ProgressBar::new(length).with_message(what);
+        if self.quiet {
+            bar.set_draw_target(ProgressDrawTarget::hidden());
+        }
+        if let Ok(style) =
+            ProgressStyle::with_template("{msg:>12} [{bar:32}] {percent:>3} % {eta:>6}")
+        {
+            bar.set_style(style.progress_chars("=> "));
+        }
+        bar
+    }
+}
+
+/// `word` as a shell would need it.
+fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_alphanumeric() || "-_./=:+,".contains(c);
+    if !word.is_empty() && word.chars().all(plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', r"'\''"))
+    }
+}
+
+/// Output folder: the one given, else `out/<name>`; made sure to be writable before any work starts.
+///
+/// Nothing is left behind: the check writes a temporary file into the nearest folder that exists.
+///
+/// # Errors
+/// [`Error::File`] when files cannot be created there.
+pub fn output_folder(given: Option<&Path>, name: &str) -> Result<PathBuf> {
+    let folder = given.map_or_else(|| Path::new("out").join(name), Path::to_owned);
+    check_writable(&folder)?;
+    Ok(folder)
+}
+
+/// That files can be created in `folder`, which need not exist yet.
+///
+/// # Errors
+/// [`Error::File`] naming `folder` when they cannot.
+pub fn check_writable(folder: &Path) -> Result<()> {
+    let existing = folder
+        .ancestors()
+        .find(|ancestor| ancestor.exists())
+        .unwrap_or(Path::new("."));
+    let existing = match existing.as_os_str().is_empty() {
+        true => Path::new("."),
+        false => existing,
+    };
+    tempfile::NamedTempFile::new_in(existing)
+        .map(drop)
+        .map_err(Error::file("write into output folder", folder))
+}
+
+/// Folder of the impact at `velocity` (m/s) below an output folder: `impact_V10`.
+#[must_use]
+pub fn impact_folder(out: &Path, velocity: f64) -> PathBuf {
+    out.join(format!("impact_V{velocity}"))
+}
+
+/// Print to standard output; a reader that stops early (`| head`) is no error.
+///
+/// # Errors
+/// [`Error::File`] when standard output cannot be written for another reason.
+pub fn print(text: &str) -> Result<()> {
+    let mut out = std::io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(e) if e.kind() != std::io::ErrorKind::BrokenPipe => {
+            Err(Error::file("write", Path::new("standard output"))(e))
+        }
+        _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_writability_check_leaves_nothing_behind() {
+        let folder = tempfile::tempdir().unwrap();
+        let out = folder.path().join("a/b");
+        check_writable(&out).unwrap();
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+        let file = folder.path().join("file");
+        std::fs::write(&file, "").unwrap();
+        let error = check_writable(&file.join("out")).unwrap_err().to_string();
+        assert!(
+            error.starts_with("cannot write into output folder"),
+            "{error}"
+        );
+    }
+
+    #[test]
+    fn words_with_blanks_are_quoted() {
+        assert_eq!(quoted("10 m/s"), "'10 m/s'");
+        assert_eq!(quoted("cases/a.toml"), "cases/a.toml");
+        assert_eq!(quoted("it's"), r"'it'\''s'");
+    }
+
+    #[test]
+    fn impact_folders_are_named_after_the_speed() {
+        assert_eq!(
+            impact_folder(Path::new("o"), 10.0),
+            Path::new("o/impact_V10")
+        );
+        assert_eq!(
+            impact_folder(Path::new("o"), 0.5),
+            Path::new("o/impact_V0.5")
+        );
+    }
+}

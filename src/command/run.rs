@@ -1,0 +1,140 @@
+//! `run`: the whole path from a case file to law, comparison, bed and report.
+
+use super::show::{self, NamedLaw};
+use super::{Context, Verdict, bed, compare, impact, output_folder, print};
+use crate::bed::run::BedReport;
+use crate::bed::scene::Scene;
+use crate::case::Case;
+use crate::cli::RunArgs;
+use crate::compare::Comparison;
+use crate::curve::Impact;
+use crate::document::Document;
+use crate::fit::{THRESHOLD, fit};
+use crate::impact::Simulated;
+use crate::law::LawFile;
+use crate::plan::{Plan, plan};
+use crate::report::RunPage;
+use crate::{PROGRAM, Result};
+use std::path::Path;
+use std::time::Instant;
+
+/// What the stages have made, for the report.
+struct Results {
+    plans: Vec<Plan>,
+    simulated: Vec<Simulated>,
+    law: LawFile,
+    comparison: Comparison,
+    bed: Option<(Scene, BedReport)>,
+}
+
+/// Run the verb; all input is read and checked before any work starts.
+///
+/// # Errors
+/// Those of every stage; what was finished before stays in the output folder.
+pub fn run(args: &RunArgs, context: &Context) -> Result<Verdict> {
+    let started = Instant::now();
+    let document = Document::read(&args.case)?;
+    let case = Case::from_document(&document)?;
+    let scene = case
+        .bed
+        .as_deref()
+        .filter(|_| !args.no_bed)
+        .map(Scene::read)
+        .transpose()?;
+    let out = output_folder(args.out.as_deref(), &case.name)?;
+    let results = stages(&case, scene, &out, args.seed, context)?;
+    let page = report(&document, &case, &results, &out, context, started)?;
+    let worst = 100.0 * results.law.worst_error();
+    print(&format!(
+        "{}\nlaw     {}\nerror   {worst:.2} % at most, of F*, delta* and e\nreport  {}\ntime    {:.1} s\n",
+        results.comparison.summary_markdown(),
+        out.join("law.toml").display(),
+        page.display(),
+        started.elapsed().as_secs_f64()
+    ))?;
+    Ok(verdict(&results))
+}
+
+fn stages(
+    case: &Case,
+    scene: Option<Scene>,
+    out: &Path,
+    seed: Option<u64>,
+    context: &Context,
+) -> Result<Results> {
+    let provenance = context.provenance(&case.hash);
+    let plans = case.velocities.iter().map(|v| plan(case, *v)).collect();
+    let simulated = impact::impacts(case, out, context)?;
+    let impacts: Vec<Impact> = simulated.iter().map(|one| one.impact.clone()).collect();
+    let law = LawFile::of(&fit(case, &impacts)?, case, PROGRAM);
+    law.write(&out.join("law.toml"))?;
+    let mut comparison = Comparison::new(&case.material, case.radius, &impacts);
+    compare::add_fitted(&mut comparison, &law)?;
+    comparison.add_theories();
+    comparison.write(out, &provenance)?;
+    let bed = scene
+        .map(|scene| {
+            bed::simulate(&scene, Some(&law), out, seed, context).map(|report| (scene, report))
+        })
+        .transpose()?;
+    Ok(Results {
+        plans,
+        simulated,
+        law,
+        comparison,
+        bed,
+    })
+}
+
+fn report(
+    document: &Document,
+    case: &Case,
+    results: &Results,
+    out: &Path,
+    context: &Context,
+    started: Instant,
+) -> Result<std::path::PathBuf> {
+    let laws: Vec<NamedLaw> = show::laws(&results.law, &case.material)?;
+    let impacts: Vec<&Impact> = results.simulated.iter().map(|one| &one.impact).collect();
+    let picture = out.join("bed/bed.png");
+    let bed = results
+        .bed
+        .as_ref()
+        .map(|(scene, report)| show::bed(scene, report, &picture))
+        .transpose()?;
+    RunPage {
+        case,
+        case_text: document.text(),
+        command: &context.command,
+        version: PROGRAM,
+        wall: Some(started.elapsed().as_secs_f64()),
+        predicted: Some(results.plans.iter().map(|plan| plan.seconds).sum()),
+        plan: show::choices(case, &results.plans),
+        impacts: impacts
+            .iter()
+            .map(|impact| impact.summary.clone())
+            .collect(),
+        curves: show::curves(case, &impacts, &laws)?,
+        maps: show::maps(&results.simulated)?,
+        fit: Some(show::fit(&results.law)?),
+        comparison: show::comparison(&results.comparison.markdown()),
+        bed,
+        references: show::references(&laws),
+        limits: show::limits(&results.law),
+    }
+    .write(out)
+}
+
+/// Missed if the law is off by more than [`THRESHOLD`] somewhere, or a bed's account does not close.
+fn verdict(results: &Results) -> Verdict {
+    let law = results.law.worst_error() <= THRESHOLD;
+    let bed = results
+        .bed
+        .as_ref()
+        .is_none_or(|(_, report)| bed::verdict(report) == Verdict::Met);
+    if law && bed {
+        Verdict::Met
+    } else {
+        Verdict::Missed
+    }
+}

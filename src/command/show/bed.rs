@@ -1,0 +1,112 @@
+//! Bed shown: facts of the scene, figures of each law, curves, picture.
+
+use crate::Result;
+use crate::bed::row::Row;
+use crate::bed::run::{BedReport, LawRun};
+use crate::bed::scene::Scene;
+use crate::report::chart::{Mark, Series};
+use crate::report::figure::Figure;
+use crate::report::palette::Role;
+use crate::report::run_page::BedShow;
+use crate::report::table::Table;
+use crate::unit::{engineering, significant};
+use std::path::Path;
+
+/// What a bed run has to show; `picture` is a PNG file, shown if it is there.
+///
+/// # Errors
+/// [`crate::Error::Figure`] when a curve cannot be drawn.
+pub fn bed(scene: &Scene, report: &BedReport, picture: &Path) -> Result<BedShow> {
+    let series = |value: fn(&Row) -> f64| report.laws.iter().map(|law| line(law, value)).collect();
+    let caption = "The bed at its largest strain.".to_owned();
+    Ok(BedShow {
+        facts: facts(scene, report),
+        results: results(report),
+        figures: vec![
+            Figure::stress_strain(series(|row| row.stress_pa))?,
+            Figure::coordination(series(|row| row.coordination))?,
+        ],
+        picture: std::fs::read(picture).ok().map(|png| (png, caption)),
+    })
+}
+
+fn facts(scene: &Scene, report: &BedReport) -> Vec<(String, String)> {
+    let packing = &report.packing_summary;
+    let inertia = report
+        .laws
+        .iter()
+        .map(|law| law.summary.inertial_number)
+        .fold(0.0, f64::max);
+    [
+        ("Scene", scene.name.clone()),
+        ("Grains", packing.grains.to_string()),
+        (
+            "Packing",
+            format!(
+                "made with contacts {} times as stiff as true ones, energy closure {}",
+                significant(packing.settling_stiffness, 2),
+                significant(packing.energy_closure, 2)
+            ),
+        ),
+        (
+            "Inertial number at the largest stress",
+            format!("at most {}", significant(inertia, 2)),
+        ),
+    ]
+    .map(|(name, value)| (name.to_owned(), value))
+    .into()
+}
+
+fn results(report: &BedReport) -> Table {
+    let mut table = Table::new(
+        "The same packing compressed and let go with each law.",
+        &[
+            "law",
+            "largest stress",
+            "strain left (%)",
+            "contacts per grain",
+            "plastic part of losses (%)",
+            "overlap/diameter (%)",
+            "closure",
+            "lost",
+            "particle-steps/s",
+            "wall time",
+        ],
+    );
+    for run in &report.laws {
+        let s = &run.summary;
+        let percent = |value: f64| significant(100.0 * value, 3).replace('-', "\u{2212}");
+        table.rows.push(vec![
+            run.law.clone(),
+            engineering(s.max_stress_pa, "Pa", 3),
+            percent(s.residual_strain),
+            significant(s.coordination, 3),
+            percent(s.plastic_share),
+            percent(s.max_overlap_ratio),
+            format!("{:.1e}", s.energy_closure).replace('-', "\u{2212}"),
+            s.lost_grains.to_string(),
+            format!("{:.1e}", s.particle_steps_per_s),
+            engineering(s.wall_s, "s", 2),
+        ]);
+    }
+    table
+}
+
+/// Curve of one law from the seating stress on.
+fn line(run: &LawRun, value: fn(&Row) -> f64) -> Series {
+    Series {
+        label: run.law.clone(),
+        role: if run.law == crate::bed::scene::FITTED {
+            Role::Law
+        } else {
+            Role::Theory
+        },
+        mark: Mark::Line,
+        points: run
+            .rows
+            .iter()
+            .filter(|row| row.strain > 0.0)
+            .map(|row| (row.strain, value(row)))
+            .collect(),
+    }
+}

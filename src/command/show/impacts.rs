@@ -1,0 +1,220 @@
+//! Impacts shown: plan, force-displacement curves, restitution, and fields over the particle.
+
+use super::{Loop, NamedLaw, Restitution, Sphere};
+use crate::Result;
+use crate::case::Case;
+use crate::curve::{Impact, MapPoint, Part, ParticleMap};
+use crate::impact::Simulated;
+use crate::plan::Plan;
+use crate::report::chart::{Mark, Series};
+use crate::report::field_map::{FieldMap, FieldPoint};
+use crate::report::figure::Figure;
+use crate::report::palette::Role;
+use crate::report::run_page::Choice;
+use crate::unit::{engineering, significant};
+
+/// Speeds at which the restitution of a law is drawn.
+const SPEEDS: u32 = 60;
+/// Share of the volume whose values may lie beyond the end of a colour bar.
+const BEYOND: f64 = 0.01;
+/// What [`BEYOND`] means for the reader.
+const CAPPED: &str = "One per cent of the volume in question lies beyond the end of the colours.";
+
+/// What was planned: effects once, the grid of each speed.
+#[must_use]
+pub fn choices(case: &Case, plans: &[Plan]) -> Vec<Choice> {
+    let mut choices: Vec<Choice> = Vec::new();
+    for effect in plans.iter().flat_map(|plan| &plan.effects) {
+        let choice = Choice {
+            what: effect.name.to_owned(),
+            setting: if effect.on { "on" } else { "off" }.to_owned(),
+            reason: effect.reason.clone(),
+        };
+        let known = |other: &Choice| other.what == choice.what && other.setting == choice.setting;
+        if !choices.iter().any(known) {
+            choices.push(choice);
+        }
+    }
+    let length = |reduced: f64| engineering(reduced * case.radius, "m", 3);
+    choices.extend(plans.iter().map(|plan| Choice {
+        what: format!("grid at {} m/s", significant(plan.velocity, 4)),
+        setting: format!(
+            "degree {}, cells of {} at the pole growing to {}",
+            plan.grid.degree,
+            length(plan.grid.fine),
+            length(plan.grid.coarse)
+        ),
+        reason: format!(
+            "{} cells in the expected contact radius of {}; {} points, {} steps",
+            significant(plan.estimate.contact_radius / plan.grid.fine, 2),
+            length(plan.estimate.contact_radius),
+            plan.points,
+            plan.steps
+        ),
+    }));
+    choices
+}
+
+/// Force against displacement at each speed, and restitution against speed.
+///
+/// # Errors
+/// [`crate::Error::Figure`] when one cannot be drawn, and those of [`crate::law::AnyLaw::visit`].
+pub fn curves(case: &Case, impacts: &[&Impact], laws: &[NamedLaw]) -> Result<Vec<Figure>> {
+    let sphere = Sphere {
+        radius: case.radius,
+        mass: case.material.sphere_mass(case.radius),
+    };
+    let mut figures = Vec::new();
+    for impact in impacts {
+        let speed = impact.summary.velocity_m_s;
+        let lines = laws
+            .iter()
+            .map(|law| Ok(line(law, law.law.visit(Loop(sphere, speed))?)))
+            .collect::<Result<Vec<_>>>()?;
+        figures.push(Figure::force_displacement(speed, &impact.curve, &lines)?);
+    }
+    figures.push(restitution(sphere, impacts, laws)?);
+    Ok(figures)
+}
+
+fn line(law: &NamedLaw, points: Vec<(f64, f64)>) -> Series {
+    Series {
+        label: law.name.clone(),
+        role: law.role,
+        mark: Mark::Line,
+        points,
+    }
+}
+
+/// From a tenth of the slowest impact, where laws part from Hertz, to a little past the fastest.
+fn restitution(sphere: Sphere, impacts: &[&Impact], laws: &[NamedLaw]) -> Result<Figure> {
+    let speed = |impact: &&Impact| impact.summary.velocity_m_s;
+    let low = 0.1 * impacts.iter().map(speed).fold(f64::INFINITY, f64::min);
+    let high = 1.2 * impacts.iter().map(speed).fold(0.0, f64::max);
+    let part = |i: u32| f64::from(i) / f64::from(SPEEDS);
+    let speeds: Vec<f64> = (0..=SPEEDS)
+        .map(|i| low * (high / low).powf(part(i)))
+        .collect();
+    let mut series = vec![Series {
+        label: "MPM".to_owned(),
+        role: Role::Simulation,
+        mark: Mark::Points,
+        points: impacts
+            .iter()
+            .map(|impact| (speed(impact), impact.summary.restitution))
+            .collect(),
+    }];
+    for law in laws {
+        series.push(line(law, law.law.visit(Restitution(sphere, &speeds))?));
+    }
+    Figure::restitution(series)
+}
+
+/// Von Mises stress at the largest compression and plastic strain after rebound, at the slowest and the fastest speed.
+///
+/// # Errors
+/// [`crate::Error::Figure`] when one cannot be drawn.
+pub fn maps(impacts: &[Simulated]) -> Result<Vec<Figure>> {
+    let mut shown: Vec<&Simulated> = impacts.first().into_iter().collect();
+    if impacts.len() > 1 {
+        shown.extend(impacts.last());
+    }
+    let mut figures = Vec::new();
+    for one in shown {
+        let speed = significant(one.impact.summary.velocity_m_s, 4);
+        figures.push(map(
+            format!("von_mises_V{speed}"),
+            format!("Von Mises stress at the largest compression, {speed} m/s. {CAPPED}"),
+            field("von Mises stress", "Pa", &one.compressed, |p| {
+                p.von_mises_pa
+            }),
+        )?);
+        let strain = field("equivalent plastic strain", "", &one.rebound, |p| {
+            p.equivalent_plastic_strain
+        });
+        if strain.points.iter().any(|point| point.value > 0.0) {
+            figures.push(map(
+                format!("plastic_strain_V{speed}"),
+                format!("Equivalent plastic strain after the rebound, {speed} m/s. {CAPPED}"),
+                FieldMap {
+                    window: window(&strain),
+                    ..strain
+                },
+            )?);
+        }
+    }
+    Ok(figures)
+}
+
+fn map(name: String, caption: String, field: FieldMap) -> Result<Figure> {
+    Ok(Figure {
+        name,
+        caption,
+        svg: field.svg()?,
+    })
+}
+
+/// A field of a map; heights are measured from the lowest point, which a rebounding particle carries away from the wall.
+fn field(
+    label: &str,
+    unit: &'static str,
+    map: &ParticleMap,
+    value: fn(&MapPoint) -> f64,
+) -> FieldMap {
+    let lowest = map
+        .points
+        .iter()
+        .map(|p| p.z_m)
+        .fold(f64::INFINITY, f64::min);
+    let of = |part: Part| map.points.iter().filter(move |p| p.part == part);
+    FieldMap {
+        label: label.to_owned(),
+        unit,
+        points: of(Part::Inside)
+            .map(|p| FieldPoint {
+                r: p.r_m,
+                z: p.z_m - lowest,
+                size: p.size_m,
+                value: value(p),
+            })
+            .collect(),
+        outline: of(Part::Surface).map(|p| (p.r_m, p.z_m - lowest)).collect(),
+        top: Some(top(map, value)),
+        window: None,
+    }
+}
+
+/// Value exceeded in [`BEYOND`] of the volume where there is any: the end of the colour bar, so that a few points at the
+/// edge of the contact do not take the colours from all others.
+fn top(map: &ParticleMap, value: fn(&MapPoint) -> f64) -> f64 {
+    let mut weighed: Vec<(f64, f64)> = map
+        .points
+        .iter()
+        .filter(|p| p.part == Part::Inside && value(p) > 0.0)
+        .map(|p| (value(p), p.r_m * p.size_m * p.size_m))
+        .collect();
+    weighed.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let all: f64 = weighed.iter().map(|(_, volume)| volume).sum();
+    let mut volume = 0.0;
+    for (value, share) in weighed {
+        volume += share;
+        if volume >= BEYOND * all {
+            return value;
+        }
+    }
+    0.0
+}
+
+/// Half width of a window around what is above a fiftieth of the largest value; none if that is most of the particle.
+fn window(field: &FieldMap) -> Option<f64> {
+    let largest = field.points.iter().map(|p| p.value).fold(0.0, f64::max);
+    let reach = field
+        .points
+        .iter()
+        .filter(|p| p.value > 0.02 * largest)
+        .map(|p| p.r.max(0.5 * p.z))
+        .fold(0.0, f64::max);
+    let whole = field.points.iter().map(|p| p.r).fold(0.0, f64::max);
+    let half_width = 1.4 * reach;
+    (half_width < 0.7 * whole).then_some(half_width)
+}

@@ -1,0 +1,173 @@
+//! Show: the results of a run turned into the plain data that the report takes.
+
+mod bed;
+mod impacts;
+mod law;
+
+pub use bed::bed;
+pub use impacts::{choices, curves, maps};
+pub use law::fit;
+
+use crate::Result;
+use crate::contact::rebound::rebound;
+use crate::contact::{LawVisitor, NormalLaw};
+use crate::law::{AnyLaw, LawFile};
+use crate::material::Material;
+use crate::report::page::Block;
+use crate::report::palette::Role;
+use crate::report::table::Table;
+use crate::theory::Theory;
+
+/// A law with the name and the rank it has in figures.
+pub struct NamedLaw {
+    /// Name in legends.
+    pub name: String,
+    /// Ours, or one of the theories.
+    pub role: Role,
+    /// The law.
+    pub law: AnyLaw,
+}
+
+/// The fitted law, then every theory that the material allows.
+///
+/// # Errors
+/// As [`LawFile::law`].
+pub fn laws(file: &LawFile, material: &Material) -> Result<Vec<NamedLaw>> {
+    let mut laws = vec![NamedLaw {
+        name: "fitted".to_owned(),
+        role: Role::Law,
+        law: AnyLaw::Fitted(file.law()?),
+    }];
+    let allowed = |theory: &Theory| material.flow.is_some() || *theory == Theory::Hertz;
+    laws.extend(
+        Theory::ALL
+            .into_iter()
+            .filter(allowed)
+            .map(|theory| NamedLaw {
+                name: theory.name().to_owned(),
+                role: Role::Theory,
+                law: AnyLaw::Theory(theory, *material),
+            }),
+    );
+    Ok(laws)
+}
+
+/// A sphere about to hit the wall.
+#[derive(Debug, Clone, Copy)]
+pub struct Sphere {
+    /// R, m.
+    pub radius: f64,
+    /// m, kg.
+    pub mass: f64,
+}
+
+/// Points on each branch of a drawn curve.
+const BRANCH: u32 = 120;
+
+/// Force against displacement of a law in its own impact at a speed (m/s): up to its turning point and back.
+struct Loop(Sphere, f64);
+
+impl LawVisitor for Loop {
+    type Output = Vec<(f64, f64)>;
+
+    fn visit<L: NormalLaw>(self, law: &L) -> Self::Output {
+        let Loop(Sphere { radius, mass }, velocity) = self;
+        let turn = rebound(law, radius, mass, velocity).max_displacement;
+        if !turn.is_finite() {
+            return Vec::new();
+        }
+        let mut history = L::History::default();
+        let mut points = Vec::new();
+        for i in (0..=BRANCH).chain((0..BRANCH).rev()) {
+            let delta = turn * f64::from(i) / f64::from(BRANCH);
+            let force = radius * radius * law.force(delta / radius, &mut history);
+            points.push((delta, force));
+            // Contact is lost on the way back; what is left of the way is flight.
+            if force <= 0.0 && points.len() > BRANCH as usize {
+                break;
+            }
+        }
+        points
+    }
+}
+
+/// Restitution of a law at each of some speeds (m/s).
+struct Restitution<'a>(Sphere, &'a [f64]);
+
+impl LawVisitor for Restitution<'_> {
+    type Output = Vec<(f64, f64)>;
+
+    fn visit<L: NormalLaw>(self, law: &L) -> Self::Output {
+        let Restitution(Sphere { radius, mass }, speeds) = self;
+        let at = |&v: &f64| (v, rebound(law, radius, mass, v).restitution);
+        speeds.iter().map(at).collect()
+    }
+}
+
+/// The comparison's Markdown as tables: those over all speeds open, those of single speeds folded.
+#[must_use]
+pub fn comparison(markdown: &str) -> Vec<Block> {
+    let typeset = |text: &String| {
+        let text = text
+            .replace("delta", "δ")
+            .replace(" um", " µm")
+            .replace(" us", " µs");
+        text.replace(
+            '-',
+            if text.starts_with('-') {
+                "\u{2212}"
+            } else {
+                "-"
+            },
+        )
+    };
+    let mut tables = Table::in_markdown(markdown);
+    for table in &mut tables {
+        table.head.iter_mut().for_each(|cell| *cell = typeset(cell));
+        table
+            .rows
+            .iter_mut()
+            .flatten()
+            .for_each(|cell| *cell = typeset(cell));
+    }
+    let (single, all) = tables
+        .into_iter()
+        .partition(|table| table.caption.ends_with(" m/s"));
+    let mut blocks: Vec<Block> = Vec::new();
+    let all: Vec<Table> = all;
+    blocks.extend(all.into_iter().map(Block::Table));
+    blocks.push(Block::Folded("Each speed".to_owned(), single));
+    blocks
+}
+
+/// Papers of the theories, as their rooms name them.
+#[must_use]
+pub fn references(laws: &[NamedLaw]) -> Vec<String> {
+    laws.iter()
+        .filter_map(|law| match law.law {
+            AnyLaw::Theory(theory, _) => Some(format!("{}: {}", law.name, theory.reference())),
+            AnyLaw::Fitted(_) => None,
+        })
+        .collect()
+}
+
+/// What the results of this version do not cover.
+#[must_use]
+pub fn limits(file: &LawFile) -> Vec<String> {
+    let valid = &file.valid;
+    let outside = valid.displacement_over_radius_max;
+    [
+        "One particle hits a rigid, frictionless, flat wall at a right angle and without spin.".to_owned(),
+        "The material does not depend on rate or temperature, and it does not crack.".to_owned(),
+        format!(
+            "The fitted law rests on impacts from {} to {} m/s and flattenings up to δ/R = {outside:.3}; beyond that it \
+             is extrapolated.",
+            valid.velocity_min_m_s, valid.velocity_max_m_s
+        ),
+        "The law has no waves: early in a fast impact simulated forces oscillate about its curve. Curves and beds show it \
+         without its inertia term."
+            .to_owned(),
+        "There is no adhesion, neither in the impacts nor in the bed.".to_owned(),
+    ]
+    .into()
+}

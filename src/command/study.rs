@@ -1,0 +1,156 @@
+//! Study command: runs a grid of cases in parallel, equal dimensionless groups once, and resumes where it was stopped.
+
+use super::{Context, Verdict, output_folder, print};
+use crate::cli::StudyArgs;
+use crate::curve::{Impact, Status, Summary};
+use crate::files::write_atomic;
+use crate::impact::simulate;
+use crate::plan::plan;
+use crate::study::{Study, group, scaled};
+use crate::{Error, Result};
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// Run what is not there yet, then write `results.csv`; [`Verdict::Missed`] when a case did not end with status ok.
+///
+/// # Errors
+/// Those of reading the study and of writing the results.
+pub fn run(args: &StudyArgs, context: &Context) -> Result<Verdict> {
+    let study = Study::read(&args.study)?;
+    let out = output_folder(args.out.as_deref(), &study.name)?;
+    let runs = runs(&study, &out, context)?;
+    let rows: Vec<(usize, Summary)> = study
+        .cases
+        .iter()
+        .enumerate()
+        .map(|(i, case)| {
+            let (first, summary) = &runs[&group(case)];
+            (i, scaled(summary, &study.cases[*first], case))
+        })
+        .collect();
+    let path = out.join("results.csv");
+    write_atomic(
+        &path,
+        table(&study, &rows, &context.provenance(&study.hash), &path)?.as_bytes(),
+    )?;
+    let ok = rows.iter().filter(|(_, s)| s.status == Status::Ok).count();
+    print(&format!(
+        "{} cases, {} runs, {ok} with status ok -> {}\n",
+        rows.len(),
+        runs.len(),
+        path.display()
+    ))?;
+    Ok(if ok == rows.len() {
+        Verdict::Met
+    } else {
+        Verdict::Missed
+    })
+}
+
+/// Figures of every group, by its name, with the number of the case that stands for it; finished ones are read.
+fn runs(
+    study: &Study,
+    out: &Path,
+    context: &Context,
+) -> Result<BTreeMap<String, (usize, Summary)>> {
+    let mut groups: BTreeMap<String, usize> = BTreeMap::new();
+    for (i, case) in study.cases.iter().enumerate() {
+        groups.entry(group(case)).or_insert(i);
+    }
+    let mut queue: Vec<(f64, &String, usize)> = groups
+        .iter()
+        .map(|(name, &i)| {
+            (
+                plan(&study.cases[i], study.cases[i].velocities[0]).seconds,
+                name,
+                i,
+            )
+        })
+        .collect();
+    queue.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let bar = context.progress(queue.len() as u64, "study");
+    let provenance = context.provenance(&study.hash);
+    let done = queue
+        .par_iter()
+        .with_max_len(1)
+        .map(|&(_, name, i)| {
+            let folder: PathBuf = out.join("runs").join(name);
+            let summary = if folder.join("summary.json").is_file() {
+                Impact::read(&folder)?.summary
+            } else {
+                let case = &study.cases[i];
+                let simulated =
+                    simulate(&case.material, case.radius, &plan(case, case.velocities[0]));
+                simulated.impact.write(&folder, &provenance)?;
+                simulated.impact.summary
+            };
+            bar.inc(1);
+            Ok((name.clone(), (i, summary)))
+        })
+        .collect::<Result<BTreeMap<_, _>>>();
+    bar.finish_and_clear();
+    done
+}
+
+/// `results.csv`: the case, then every key of `summary.json`, one row a case.
+fn table(
+    study: &Study,
+    rows: &[(usize, Summary)],
+    provenance: &str,
+    path: &Path,
+) -> Result<String> {
+    let mut text = format!("# {provenance}\n");
+    for (k, (i, summary)) in rows.iter().enumerate() {
+        let case = &study.cases[*i];
+        let m = &case.material;
+        let strength = m.flow.map_or(f64::INFINITY, |f| f.yield_strength);
+        let figures = figures(summary).map_err(|e| Error::file("write", path)(e.into()))?;
+        if k == 0 {
+            let keys: Vec<&str> = figures.iter().map(|(key, _)| key.as_str()).collect();
+            text += &format!(
+                "density_kg_m3,young_modulus_Pa,yield_strength_Pa,poisson_ratio,radius_m,{}\n",
+                keys.join(",")
+            );
+        }
+        let values: Vec<&str> = figures.iter().map(|(_, value)| value.as_str()).collect();
+        text += &format!(
+            "{},{},{strength},{},{},{}\n",
+            m.density,
+            m.young_modulus,
+            m.poisson_ratio,
+            case.radius,
+            values.join(",")
+        );
+    }
+    Ok(text)
+}
+
+/// Keys and values of `summary.json` in its order (`velocity_m_s` first); the status as one word, its reason after a colon.
+fn figures(summary: &Summary) -> std::result::Result<Vec<(String, String)>, serde_json::Error> {
+    let text = serde_json::to_string_pretty(summary)?;
+    let value: serde_json::Value = serde_json::from_str(&text)?;
+    let keys = text.lines().filter_map(|line| {
+        line.strip_prefix("  \"")?
+            .split_once("\":")
+            .map(|(key, _)| key)
+    });
+    Ok(keys
+        .map(|key| {
+            let cell = match &value[key] {
+                serde_json::Value::String(word) => word.clone(),
+                serde_json::Value::Object(map) => map
+                    .iter()
+                    .map(|(word, why)| {
+                        format!(
+                            "\"{word}: {}\"",
+                            why.as_str().unwrap_or_default().replace('"', "'")
+                        )
+                    })
+                    .collect(),
+                other => other.to_string(),
+            };
+            (key.to_owned(), cell)
+        })
+        .collect())
+}

@@ -1,0 +1,207 @@
+//! Command `theory`: force or restitution of a published law as CSV on standard output.
+
+use crate::case::Case;
+use crate::cli::TheoryArgs;
+use crate::contact::rebound::rebound;
+use crate::contact::{LawVisitor, NormalLaw};
+use crate::theory::{Theory, wu_li_thornton};
+use crate::unit::{self, Length, Velocity};
+use crate::{Error, Result};
+use serde::Serialize;
+use std::path::Path;
+
+/// Point of a force-displacement curve. Field names are the CSV header (file contract).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ForceRow {
+    /// Displacement delta, m.
+    pub displacement_m: f64,
+    /// Force F, N.
+    #[serde(rename = "force_N")]
+    pub force_n: f64,
+    /// Contact radius, m; empty where the law states none.
+    pub contact_radius_m: Option<f64>,
+}
+
+/// Point of a restitution curve. Field names are the CSV header (file contract).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct RestitutionRow {
+    /// Impact speed V, m/s.
+    pub velocity_m_s: f64,
+    /// e from the law, integrated; empty for a theory without a force law.
+    pub restitution: Option<f64>,
+    /// e from the authors' formula; empty where there is none or it does not hold.
+    pub restitution_closed_form: Option<f64>,
+}
+
+/// Print the table the arguments ask for.
+///
+/// # Errors
+/// [`Error::Argument`] for an unknown theory, a quantity without unit or out of range, or nothing to evaluate; what
+/// [`Case::read`] returns.
+pub fn run(args: &TheoryArgs) -> Result<()> {
+    let case = Case::read(&args.case)?;
+    super::print(&table(args, &case)?)
+}
+
+/// The CSV text for a case that has been read.
+///
+/// # Errors
+/// As [`run`], the case file apart.
+pub fn table(args: &TheoryArgs, case: &Case) -> Result<String> {
+    match (args.displacements.is_empty(), args.velocities.is_empty()) {
+        (false, _) => csv_text(&force_rows(args, case)?),
+        (true, false) => csv_text(&restitution_rows(args, case)?),
+        (true, true) => Err(Error::Argument {
+            argument: "theory".to_owned(),
+            found: "neither --displacements nor --velocities".to_owned(),
+            allowed: "give one, e.g. --displacements \"1 um\" or --velocities \"10 m/s\""
+                .to_owned(),
+        }),
+    }
+}
+
+fn force_rows(args: &TheoryArgs, case: &Case) -> Result<Vec<ForceRow>> {
+    if args.model == wu_li_thornton::NAME {
+        return Err(Error::Argument {
+            argument: "--displacements".to_owned(),
+            found: args.model.clone(),
+            allowed: "this theory gives restitution only; use --velocities".to_owned(),
+        });
+    }
+    let theory: Theory = args.model.parse()?;
+    let displacements = quantities::<Length>("--displacements", &args.displacements, false)?;
+    let peak = args
+        .max_displacement
+        .as_slice()
+        .iter()
+        .map(|text| quantity::<Length>("--max-displacement", text, true))
+        .next()
+        .transpose()?;
+    let radius = case.radius;
+    theory.visit(
+        &case.material,
+        Forces {
+            theory,
+            radius,
+            displacements: &displacements,
+            peak,
+        },
+    )
+}
+
+/// Evaluates forces at displacements, each from the same history.
+struct Forces<'a> {
+    theory: Theory,
+    radius: f64,
+    displacements: &'a [f64],
+    peak: Option<f64>,
+}
+
+impl LawVisitor for Forces<'_> {
+    type Output = Vec<ForceRow>;
+
+    fn visit<L: NormalLaw>(self, law: &L) -> Vec<ForceRow> {
+        let mut start = L::History::default();
+        if let Some(peak) = self.peak {
+            law.force(peak / self.radius, &mut start);
+        }
+        let largest = self
+            .displacements
+            .iter()
+            .copied()
+            .fold(self.peak.unwrap_or(0.0), f64::max);
+        if largest > law.valid_to() * self.radius {
+            let supported = law.valid_to() * self.radius;
+            tracing::warn!(
+                "{}: displacements above {supported:.3e} m are beyond what its source supports",
+                self.theory
+            );
+        }
+        let row = |&displacement: &f64| {
+            let (x, mut history) = (displacement / self.radius, start);
+            ForceRow {
+                displacement_m: displacement,
+                force_n: law.force(x, &mut history) * self.radius * self.radius,
+                contact_radius_m: law.contact_radius(x, &history).map(|a| a * self.radius),
+            }
+        };
+        self.displacements.iter().map(row).collect()
+    }
+}
+
+fn restitution_rows(args: &TheoryArgs, case: &Case) -> Result<Vec<RestitutionRow>> {
+    let velocities = quantities::<Velocity>("--velocities", &args.velocities, true)?;
+    let material = &case.material;
+    if args.model == wu_li_thornton::NAME {
+        let row = |velocity_m_s| RestitutionRow {
+            velocity_m_s,
+            restitution: None,
+            restitution_closed_form: wu_li_thornton::restitution(material, velocity_m_s),
+        };
+        return Ok(velocities.into_iter().map(row).collect());
+    }
+    let theory: Theory = args.model.parse()?;
+    let integrated = theory.visit(material, Restitutions(case, &velocities))?;
+    let row = |(velocity_m_s, e)| RestitutionRow {
+        velocity_m_s,
+        restitution: Some(e),
+        restitution_closed_form: theory.restitution_closed_form(material, velocity_m_s),
+    };
+    Ok(velocities
+        .iter()
+        .copied()
+        .zip(integrated)
+        .map(row)
+        .collect())
+}
+
+/// Integrates the impact of the case's sphere at each speed.
+struct Restitutions<'a>(&'a Case, &'a [f64]);
+
+impl LawVisitor for Restitutions<'_> {
+    type Output = Vec<f64>;
+
+    fn visit<L: NormalLaw>(self, law: &L) -> Vec<f64> {
+        let Restitutions(case, velocities) = self;
+        let mass = case.material.sphere_mass(case.radius);
+        let e = |&velocity: &f64| rebound(law, case.radius, mass, velocity).restitution;
+        velocities.iter().map(e).collect()
+    }
+}
+
+fn quantities<D: unit::Dimension>(
+    name: &str,
+    texts: &[String],
+    positive: bool,
+) -> Result<Vec<f64>> {
+    texts
+        .iter()
+        .map(|text| quantity::<D>(name, text, positive))
+        .collect()
+}
+
+fn quantity<D: unit::Dimension>(name: &str, text: &str, positive: bool) -> Result<f64> {
+    let value = unit::argument::<D>(name, text)?;
+    if positive && value <= 0.0 {
+        return Err(Error::Argument {
+            argument: name.to_owned(),
+            found: format!("\"{text}\""),
+            allowed: "must be positive".to_owned(),
+        });
+    }
+    Ok(value)
+}
+
+fn csv_text<R: Serialize>(rows: &[R]) -> Result<String> {
+    let out = Path::new("standard output");
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    for row in rows {
+        writer
+            .serialize(row)
+            .map_err(|e| Error::file("write", out)(e.into()))?;
+    }
+    let bytes = writer
+        .into_inner()
+        .map_err(|e| Error::file("write", out)(e.into_error()))?;
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
+}

@@ -1,0 +1,123 @@
+//! Comparison: contact laws held against simulated impacts, as rows, `compare.csv` and a Markdown table.
+//!
+//! Each law is judged twice. *Impact*: the 1-D impact of the law at the same speed gives F*, delta*, delta_res, e
+//! and the contact time. *Curve*: the law is led along the displacements of the simulated impact and its force held
+//! against the simulated one.
+
+mod misfit;
+mod row;
+mod table;
+
+pub use misfit::Misfit;
+pub use row::{Errors, Row};
+
+use crate::contact::rebound::rebound;
+use crate::contact::{LawVisitor, NormalLaw};
+use crate::curve::{Impact, Status};
+use crate::files::write_atomic;
+use crate::material::Material;
+use crate::theory::Theory;
+use crate::{Error, Result};
+use std::path::Path;
+
+/// Name of the rows that hold the simulated impacts themselves.
+pub const SIMULATION: &str = "mpm";
+
+/// Relative difference of lengths that is rounding (a fitted law is supported to the largest displacement of its
+/// own impacts).
+const LENGTH_ROUNDING: f64 = 1e-9;
+
+/// Laws and impacts that are being compared.
+#[derive(Debug, Clone)]
+pub struct Comparison {
+    material: Material,
+    radius: f64,
+    impacts: Vec<Impact>,
+    left_out: Vec<f64>,
+    rows: Vec<Row>,
+}
+
+impl Comparison {
+    /// Comparison with the impacts that rebounded, for a sphere of `radius` (m); it holds their `mpm` rows to begin
+    /// with. Impacts that failed or did not rebound are left out, and named in the table.
+    #[must_use]
+    pub fn new(material: &Material, radius: f64, impacts: &[Impact]) -> Self {
+        let (done, broken): (Vec<_>, Vec<_>) = impacts
+            .iter()
+            .cloned()
+            .partition(|impact| impact.summary.status == Status::Ok);
+        let velocity = |impact: &Impact| impact.summary.velocity_m_s;
+        Self {
+            material: *material,
+            radius,
+            rows: done
+                .iter()
+                .map(|impact| Row::simulated(&impact.summary))
+                .collect(),
+            left_out: broken.iter().map(velocity).collect(),
+            impacts: done,
+        }
+    }
+
+    /// Add a law under a name.
+    pub fn add<L: NormalLaw>(&mut self, name: &str, law: &L) {
+        let mass = self.material.sphere_mass(self.radius);
+        for impact in &self.impacts {
+            let hit = rebound(law, self.radius, mass, impact.summary.velocity_m_s);
+            let misfit = Misfit::of(law, self.radius, mass, impact);
+            let supported = law.valid_to() * self.radius;
+            let extrapolated =
+                impact.summary.max_displacement_m > supported * (1.0 + LENGTH_ROUNDING);
+            self.rows
+                .push(Row::law(name, &impact.summary, &hit, misfit, extrapolated));
+        }
+    }
+
+    /// Add every theory the material allows: all of them, or Hertz alone for an elastic body.
+    pub fn add_theories(&mut self) {
+        let material = self.material;
+        for theory in Theory::ALL {
+            if theory == Theory::Hertz || material.flow.is_some() {
+                // the only refusal is a missing yield strength, which has just been looked at
+                let _ = theory.visit(&material, Added(self, theory.name()));
+            }
+        }
+    }
+
+    /// Rows: the simulated impacts first, then law by law in the order they were added, speeds ascending as given.
+    #[must_use]
+    pub fn rows(&self) -> &[Row] {
+        &self.rows
+    }
+
+    /// Write `compare.csv` (with a `#` provenance line) and `compare.md` into `folder`.
+    ///
+    /// # Errors
+    /// [`Error::File`] when a file cannot be written.
+    pub fn write(&self, folder: &Path, provenance: &str) -> Result<()> {
+        let path = folder.join("compare.csv");
+        let mut writer = csv::Writer::from_writer(format!("# {provenance}\n").into_bytes());
+        for row in &self.rows {
+            writer
+                .serialize(row)
+                .map_err(|e| Error::file("write", &path)(e.into()))?;
+        }
+        let bytes = writer
+            .into_inner()
+            .map_err(|e| Error::file("write", &path)(e.into_error()))?;
+        write_atomic(&path, &bytes)?;
+        let text = format!("<!-- {provenance} -->\n{}", self.markdown());
+        write_atomic(&folder.join("compare.md"), text.as_bytes())
+    }
+}
+
+/// Adds the visited law.
+struct Added<'a>(&'a mut Comparison, &'static str);
+
+impl LawVisitor for Added<'_> {
+    type Output = ();
+
+    fn visit<L: NormalLaw>(self, law: &L) {
+        self.0.add(self.1, law);
+    }
+}

@@ -1,0 +1,58 @@
+//! Contact laws of one body pressed by a rigid plane (flattening laws) and what is built from them.
+//!
+//! Sign convention, stated here and nowhere else: overlap $\delta > 0$ means contact, force $F > 0$ repels,
+//! rate $\dot\delta > 0$ approaches.
+//!
+//! Laws are geometrically similar: with $x = \delta/R$ the flattening of a body of radius R,
+//! $F = R^2 \varphi(x)$. Traits speak in $x$ and the reduced force $\varphi = F/R^2$ (Pa), so one law serves every
+//! grain size of its material.
+
+pub mod admissible;
+pub mod elastoplastic;
+pub mod inertia;
+pub mod loading;
+pub mod pair;
+mod panel;
+pub mod rebound;
+pub mod spline;
+pub mod unloading;
+
+use inertia::Inertia;
+
+/// Normal force law of one body on a rigid plane: a pure function of flattening and its history.
+///
+/// Path-exact: the force follows from the state, never from summed increments, so results do not depend on the
+/// time step.
+pub trait NormalLaw: Clone + Send + Sync + 'static {
+    /// What the contact remembers (e.g. the largest flattening); `Default` is the virgin contact.
+    type History: Copy + Default + Send + Sync + PartialEq + std::fmt::Debug;
+
+    /// Reduced force $F/R^2$ (Pa) at flattening `x` = $\delta/R$, updating the history. 0 where contact is lost.
+    fn force(&self, x: f64, history: &mut Self::History) -> f64;
+
+    /// Tangent stiffness of the present branch, $d\varphi/dx$ (Pa), at `x` with `history` already updated.
+    fn stiffness(&self, x: f64, history: &Self::History) -> f64;
+
+    /// Recoverable energy over $R^3$ (Pa): area under the unloading branch from `x` down to zero force.
+    fn elastic_energy(&self, x: f64, history: &Self::History) -> f64;
+
+    /// Contact radius over R, where the law states one.
+    fn contact_radius(&self, x: f64, history: &Self::History) -> Option<f64>;
+
+    /// Largest flattening `x` the law's source supports; `f64::INFINITY` when it states none.
+    fn valid_to(&self) -> f64;
+
+    /// What the law adds to [`NormalLaw::force`] on first loading because of the rate of approach. Everything else of
+    /// this trait is the rate-independent core; a bed runs on the core alone.
+    fn inertia(&self) -> Inertia {
+        Inertia::NONE
+    }
+}
+
+/// Calls generic code with the concrete law behind a name: one `match`, outside every loop.
+pub trait LawVisitor {
+    /// What the visit returns.
+    type Output;
+    /// Run with the concrete law.
+    fn visit<L: NormalLaw>(self, law: &L) -> Self::Output;
+}

@@ -1,0 +1,236 @@
+//! Pair: flattening laws pressed against each other, or one against a rigid surface.
+//!
+//! Two touching bodies are two flattening laws in series: they share one force, and their flattenings add up to the
+//! overlap of the undeformed spheres,
+//!
+//! $$ \delta = \delta_1 + \delta_2, \qquad F_1(\delta_1) = F_2(\delta_2) = F . $$
+//!
+//! | type | bodies | each side |
+//! |---|---|---|
+//! | [`Flat`] | a grain on a rigid surface | $\delta_1 = \delta$ |
+//! | [`Twins`] | two grains of one material and one radius | $\delta_1 = \delta_2 = \delta/2$, by symmetry |
+//! | [`Series`] | two grains of one material and any radii | solved, each side with its own history |
+
+use super::NormalLaw;
+use std::fmt::Debug;
+
+/// Relative mismatch of the two forces that counts as rounding.
+const FORCE_ROUNDING: f64 = 1e-14;
+/// Iterations of the safeguarded Newton search; bisection alone ends within this many halvings of a `f64` interval.
+const MAX_SEARCH: usize = 64;
+
+/// State of a pressed contact, SI units.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Pressed {
+    /// Normal force F, N; 0 where the law has lost contact.
+    pub force: f64,
+    /// Tangent stiffness dF/d(overlap) of the present branch, N/m.
+    pub stiffness: f64,
+    /// Contact radius a, m: the law's own, else the geometric $a^2 = R \delta_1$.
+    pub contact_radius: f64,
+    /// Flattening of the first and of the second body, m.
+    pub flattening: [f64; 2],
+}
+
+/// What presses: a pair of bodies, or a body and a rigid surface.
+pub trait Press: Clone + Send + Sync + 'static {
+    /// What the contact remembers.
+    type History: Copy + Default + Send + Sync + PartialEq + Debug;
+    /// Force at `overlap` (m) of bodies of `radii` (m), updating the history.
+    fn press(&self, overlap: f64, radii: [f64; 2], history: &mut Self::History) -> Pressed;
+
+    /// Recoverable energy (J) at `overlap`, the history being up to date.
+    fn elastic_energy(&self, overlap: f64, radii: [f64; 2], history: &Self::History) -> f64;
+
+    /// Largest flattening over radius the law's source supports.
+    fn valid_to(&self) -> f64;
+}
+
+/// Contact radius (m) of a flattened side: what the law states, else that of a sphere cut by a plane, $a^2 = R\delta$.
+#[inline(always)]
+fn contact_radius<L: NormalLaw>(law: &L, x: f64, radius: f64, history: &L::History) -> f64 {
+    radius
+        * law
+            .contact_radius(x, history)
+            .unwrap_or_else(|| x.max(0.0).sqrt())
+}
+
+/// A grain on a rigid surface; all flattening is the grain's.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Flat<L>(pub L);
+
+impl<L: NormalLaw> Press for Flat<L> {
+    type History = L::History;
+
+    #[inline(always)]
+    fn press(&self, overlap: f64, radii: [f64; 2], history: &mut L::History) -> Pressed {
+        let radius = radii[0];
+        let x = overlap / radius;
+        let force = radius * radius * self.0.force(x, history);
+        Pressed {
+            force,
+            stiffness: radius * self.0.stiffness(x, history),
+            contact_radius: contact_radius(&self.0, x, radius, history),
+            flattening: [overlap, 0.0],
+        }
+    }
+
+    fn elastic_energy(&self, overlap: f64, radii: [f64; 2], history: &L::History) -> f64 {
+        radii[0].powi(3) * self.0.elastic_energy(overlap / radii[0], history)
+    }
+
+    fn valid_to(&self) -> f64 {
+        self.0.valid_to()
+    }
+}
+
+/// Two grains of one material and one radius: each side takes half the overlap, so one history serves both.
+///
+/// $$ F(\delta) = R^2 \varphi\!\left(\frac{\delta}{2R}\right), \qquad \frac{dF}{d\delta} = \frac{R}{2} \varphi' $$
+///
+/// ```
+/// use impactlaw::contact::pair::{Flat, Press, Twins};
+/// use impactlaw::theory::hertz::Hertz;
+/// // Two spheres overlapping by 2 d carry the force of one sphere pressed by d on a rigid flat.
+/// let (radii, d) = ([1e-3, 1e-3], 1e-6);
+/// let pair = Twins(Hertz::new(7e10)).press(2.0 * d, radii, &mut ());
+/// let wall = Flat(Hertz::new(7e10)).press(d, radii, &mut ());
+/// assert_eq!(pair.force, wall.force);
+/// assert_eq!(2.0 * pair.stiffness, wall.stiffness);
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Twins<L>(pub L);
+
+impl<L: NormalLaw> Press for Twins<L> {
+    type History = L::History;
+
+    #[inline(always)]
+    fn press(&self, overlap: f64, radii: [f64; 2], history: &mut L::History) -> Pressed {
+        let radius = radii[0];
+        let half = 0.5 * overlap;
+        let x = half / radius;
+        let force = radius * radius * self.0.force(x, history);
+        Pressed {
+            force,
+            stiffness: 0.5 * radius * self.0.stiffness(x, history),
+            contact_radius: contact_radius(&self.0, x, radius, history),
+            flattening: [half, half],
+        }
+    }
+
+    fn elastic_energy(&self, overlap: f64, radii: [f64; 2], history: &L::History) -> f64 {
+        2.0 * radii[0].powi(3) * self.0.elastic_energy(0.5 * overlap / radii[0], history)
+    }
+
+    fn valid_to(&self) -> f64 {
+        self.0.valid_to()
+    }
+}
+
+/// Two grains of one material and any radii: the flattenings that balance the forces are solved for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Series<L>(pub L);
+
+/// What a [`Series`] contact remembers.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Sides<H> {
+    /// History of each side.
+    pub histories: [H; 2],
+    /// Share of the overlap the first side took last: where the next search starts (0: none yet).
+    pub share: f64,
+}
+
+/// One side of a series contact at a trial flattening.
+struct Trial<H> {
+    force: f64,
+    stiffness: f64,
+    history: H,
+}
+
+impl<L: NormalLaw> Series<L> {
+    fn side(&self, flattening: f64, radius: f64, history: &L::History) -> Trial<L::History> {
+        let mut history = *history;
+        let x = flattening / radius;
+        let force = radius * radius * self.0.force(x, &mut history);
+        Trial {
+            force,
+            stiffness: radius * self.0.stiffness(x, &history),
+            history,
+        }
+    }
+
+    /// Flattening of the first side at which both forces agree: Newton kept inside a bracket that bisection can finish.
+    fn balance(&self, overlap: f64, radii: [f64; 2], sides: &Sides<L::History>) -> f64 {
+        let (mut low, mut high) = (0.0, overlap);
+        let mut first = if sides.share > 0.0 {
+            sides.share * overlap
+        } else {
+            0.5 * overlap
+        };
+        for _ in 0..MAX_SEARCH {
+            let a = self.side(first, radii[0], &sides.histories[0]);
+            let b = self.side(overlap - first, radii[1], &sides.histories[1]);
+            let excess = a.force - b.force;
+            if excess.abs() <= FORCE_ROUNDING * a.force.max(b.force) {
+                break;
+            }
+            if excess > 0.0 {
+                high = first;
+            } else {
+                low = first;
+            }
+            let newton = first - excess / (a.stiffness + b.stiffness);
+            let next = if newton > low && newton < high {
+                newton
+            } else {
+                0.5 * (low + high)
+            };
+            if next == first {
+                break;
+            }
+            first = next;
+        }
+        first
+    }
+}
+
+impl<L: NormalLaw> Press for Series<L> {
+    type History = Sides<L::History>;
+
+    fn press(&self, overlap: f64, radii: [f64; 2], sides: &mut Self::History) -> Pressed {
+        if overlap <= 0.0 {
+            return Pressed::default();
+        }
+        let first = self.balance(overlap, radii, sides);
+        let a = self.side(first, radii[0], &sides.histories[0]);
+        let b = self.side(overlap - first, radii[1], &sides.histories[1]);
+        *sides = Sides {
+            histories: [a.history, b.history],
+            share: first / overlap,
+        };
+        let both = a.stiffness + b.stiffness;
+        Pressed {
+            force: 0.5 * (a.force + b.force),
+            stiffness: if both > 0.0 {
+                a.stiffness * b.stiffness / both
+            } else {
+                0.0
+            },
+            contact_radius: contact_radius(&self.0, first / radii[0], radii[0], &a.history),
+            flattening: [first, overlap - first],
+        }
+    }
+
+    fn elastic_energy(&self, overlap: f64, radii: [f64; 2], sides: &Self::History) -> f64 {
+        let first = sides.share * overlap;
+        let energy = |radius: f64, flattening: f64, history| {
+            radius.powi(3) * self.0.elastic_energy(flattening / radius, history)
+        };
+        energy(radii[0], first, &sides.histories[0])
+            + energy(radii[1], overlap - first, &sides.histories[1])
+    }
+
+    fn valid_to(&self) -> f64 {
+        self.0.valid_to()
+    }
+}

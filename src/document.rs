@@ -1,0 +1,298 @@
+//! Document: a TOML input file with its text, and errors that point into it.
+
+use crate::unit::Quantity;
+use crate::{Error, Result};
+use serde::de::DeserializeOwned;
+use sha2::{Digest, Sha256};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use toml::de::{DeTable, DeValue};
+
+/// TOML input file: path for messages, text for spans and the hash.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Document {
+    path: PathBuf,
+    text: String,
+}
+
+impl Document {
+    /// Read a file.
+    ///
+    /// # Errors
+    /// [`Error::File`] when it cannot be read or is not UTF-8.
+    pub fn read(path: &Path) -> Result<Self> {
+        let text = std::fs::read_to_string(path).map_err(Error::file("read", path))?;
+        Ok(Self::new(path, text))
+    }
+
+    /// A text that was, or could have been, read from `path`.
+    #[must_use]
+    pub fn new(path: &Path, text: impl Into<String>) -> Self {
+        Document {
+            path: path.to_owned(),
+            text: text.into(),
+        }
+    }
+
+    /// File name for messages and for resolving what the file names.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The text as it stands in the file.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// The file's name without extension; what outputs are named after.
+    #[must_use]
+    pub fn name(&self) -> String {
+        self.path
+            .file_stem()
+            .map_or_else(String::new, |stem| stem.to_string_lossy().into_owned())
+    }
+
+    /// SHA-256 of the text, hexadecimal: provenance of everything made from the file.
+    #[must_use]
+    pub fn hash(&self) -> String {
+        Sha256::digest(self.text.as_bytes())
+            .iter()
+            .map(|byte| format!("{byte:02x}"))
+            .collect()
+    }
+
+    /// A file named in this one: relative names are meant from this file's folder.
+    #[must_use]
+    pub fn resolve(&self, name: &str) -> PathBuf {
+        self.path.parent().unwrap_or(Path::new("")).join(name)
+    }
+
+    /// Deserialise into a struct that mirrors the file.
+    ///
+    /// # Errors
+    /// [`Error::Syntax`] with the key and its span: not TOML, unknown or missing key, wrong type, bad quantity.
+    pub fn parse<T: DeserializeOwned>(&self) -> Result<T> {
+        toml::from_str(&self.text).map_err(|error| {
+            let span = error.span();
+            let key = span.as_ref().and_then(|span| self.key_at(span));
+            let message = error.message().trim_end().replace('\n', "; ");
+            Error::Syntax {
+                path: self.path.clone(),
+                message: match key {
+                    Some(key) => format!("`{key}`: {message}"),
+                    None => message,
+                },
+                span,
+            }
+        })
+    }
+
+    /// Error about the value of `key` (dotted, `impact.velocities[2]` for an array item); what the file says is
+    /// looked up.
+    ///
+    /// ```
+    /// use impactlaw::document::Document;
+    /// let document = Document::new("a.toml".as_ref(), "[particle]\nradius = \"0 um\"");
+    /// let error = document.reject("particle.radius", "must be positive");
+    /// assert_eq!(error.to_string(), "a.toml: `particle.radius`: found \"0 um\"; must be positive");
+    /// ```
+    #[must_use]
+    pub fn reject(&self, key: &str, allowed: impl Into<String>) -> Error {
+        let span = self.span_of(key);
+        let found = span
+            .clone()
+            .and_then(|span| self.text.get(span))
+            .map_or_else(|| "nothing".to_owned(), |text| text.trim().to_owned());
+        Error::Value {
+            path: self.path.clone(),
+            key: key.to_owned(),
+            found,
+            allowed: allowed.into(),
+            span,
+        }
+    }
+
+    /// `value` if `holds`.
+    ///
+    /// # Errors
+    /// [`Error::Value`] saying that `key` `must` ("must lie in [0, 0.5)").
+    pub fn check(
+        &self,
+        key: &str,
+        value: f64,
+        holds: impl Fn(f64) -> bool,
+        must: &str,
+    ) -> Result<f64> {
+        if value.is_finite() && holds(value) {
+            Ok(value)
+        } else {
+            Err(self.reject(key, must))
+        }
+    }
+
+    /// SI value of a quantity that has to be positive.
+    ///
+    /// # Errors
+    /// [`Error::Value`] when it is not.
+    pub fn positive<D>(&self, key: &str, quantity: Quantity<D>) -> Result<f64> {
+        self.check(key, quantity.si(), |v| v > 0.0, "must be positive")
+    }
+
+    /// SI value of a quantity that may be zero but not negative.
+    ///
+    /// # Errors
+    /// [`Error::Value`] when it is negative.
+    pub fn non_negative<D>(&self, key: &str, quantity: Quantity<D>) -> Result<f64> {
+        self.check(key, quantity.si(), |v| v >= 0.0, "must not be negative")
+    }
+
+    /// Byte range of the value of a dotted key.
+    fn span_of(&self, key: &str) -> Option<Range<usize>> {
+        let table = DeTable::parse(&self.text).ok()?;
+        let mut found = None;
+        visit_table(table.get_ref(), "", &mut |path, span, _| {
+            if path == key {
+                found = Some(span);
+            }
+        });
+        found
+    }
+
+    /// Dotted key of the smallest value, or of the key, that holds `place`.
+    fn key_at(&self, place: &Range<usize>) -> Option<String> {
+        let table = DeTable::parse(&self.text).ok()?;
+        let mut best: Option<(usize, String)> = None;
+        visit_table(table.get_ref(), "", &mut |path, span, key_span| {
+            for range in [span, key_span] {
+                let inside = range.start <= place.start && place.end <= range.end;
+                if inside && best.as_ref().is_none_or(|(size, _)| range.len() < *size) {
+                    best = Some((range.len(), path.to_owned()));
+                }
+            }
+        });
+        best.map(|(_, path)| path)
+    }
+}
+
+/// Called with the dotted key, the span of its value and the span of the key itself.
+type Visit<'a> = &'a mut dyn FnMut(&str, Range<usize>, Range<usize>);
+
+fn visit_table(table: &DeTable, prefix: &str, visit: Visit) {
+    for (key, value) in table {
+        let path = match prefix {
+            "" => key.get_ref().to_string(),
+            _ => format!("{prefix}.{}", key.get_ref()),
+        };
+        visit(&path, value.span(), key.span());
+        visit_value(value.get_ref(), &path, visit);
+    }
+}
+
+fn visit_value(value: &DeValue, path: &str, visit: Visit) {
+    match value {
+        DeValue::Table(table) => visit_table(table, path, visit),
+        DeValue::Array(items) => {
+            for (i, item) in items.iter().enumerate() {
+                let path = format!("{path}[{i}]");
+                visit(&path, item.span(), item.span());
+                visit_value(item.get_ref(), &path, visit);
+            }
+        }
+        _ => {}
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::unit::{Length, Velocity};
+    use serde::Deserialize;
+
+    #[derive(Debug, Deserialize)]
+    #[serde(deny_unknown_fields)]
+    #[allow(dead_code)] // fields are only parsed, to see where errors are found
+    struct File {
+        particle: Particle,
+        #[serde(default)]
+        speeds: Vec<Quantity<Velocity>>,
+        shape: Option<Shape>,
+    }
+
+    #[derive(Debug, Deserialize)]
+    #[serde(deny_unknown_fields)]
+    #[allow(dead_code)] // as above
+    struct Particle {
+        radius: Quantity<Length>,
+    }
+
+    #[derive(Debug, Deserialize)]
+    #[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
+    #[allow(dead_code)] // as above
+    enum Shape {
+        Ball { radius: Quantity<Length> },
+    }
+
+    fn message(text: &str) -> (String, Option<Range<usize>>) {
+        let error = Document::new(Path::new("f.toml"), text)
+            .parse::<File>()
+            .unwrap_err();
+        let Error::Syntax { message, span, .. } = error else {
+            panic!("{error:?}")
+        };
+        (message, span)
+    }
+
+    #[test]
+    fn a_bad_quantity_names_key_found_and_allowed() {
+        let (text, span) = message("[particle]\nradius = \"3 kg\"\n");
+        assert_eq!(
+            text,
+            "`particle.radius`: found \"3 kg\"; must be a length with its unit, e.g. \"250 um\""
+        );
+        assert_eq!(span, Some(20..26));
+        let (text, _) = message("[particle]\nradius = 3\n");
+        assert!(
+            text.starts_with("`particle.radius`: invalid type: integer `3`"),
+            "{text}"
+        );
+        let (text, _) = message("speeds = [\"1 m/s\", \"2\"]\n[particle]\nradius = \"1 m\"");
+        assert!(text.starts_with("`speeds[1]`: found \"2\""), "{text}");
+    }
+
+    #[test]
+    fn unknown_and_missing_keys_are_named() {
+        let (text, _) = message("[particle]\nradus = \"3 m\"\n");
+        assert!(
+            text.starts_with("`particle.radus`: unknown field `radus`, expected `radius`"),
+            "{text}"
+        );
+        let (text, _) = message("[particle]\n");
+        assert!(text.contains("missing field `radius`"), "{text}");
+        let (text, _) = message("[particle\n");
+        assert!(!text.is_empty());
+    }
+
+    #[test]
+    fn quantities_work_inside_tagged_enums() {
+        let good = "[particle]\nradius = \"1 m\"\n[shape]\nkind = \"ball\"\nradius = ";
+        assert!(
+            Document::new(Path::new("f"), format!("{good}\"2 m\""))
+                .parse::<File>()
+                .is_ok()
+        );
+        let (text, _) = message(&format!("{good}\"2 s\""));
+        assert!(text.contains("found \"2 s\"; must be a length"), "{text}");
+    }
+
+    #[test]
+    fn array_items_are_found_by_index() {
+        let document = Document::new(Path::new("f.toml"), "speeds = [\"1 m/s\", \"0 m/s\"]");
+        let text = document.reject("speeds[1]", "must be positive").to_string();
+        assert_eq!(
+            text,
+            "f.toml: `speeds[1]`: found \"0 m/s\"; must be positive"
+        );
+    }
+}

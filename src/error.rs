@@ -1,0 +1,101 @@
+//! The one error type of the library: what went wrong, where, and what is allowed instead.
+
+use std::path::{Path, PathBuf};
+
+/// Everything that can stop a stage. Messages name the place, what was found and the remedy.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A value in an input file is not acceptable.
+    #[error("{}: `{key}`: found {found}; {allowed}", path.display())]
+    Value {
+        /// File the value was read from.
+        path: PathBuf,
+        /// Dotted key, e.g. `material.poisson_ratio`.
+        key: String,
+        /// What the file says.
+        found: String,
+        /// What is allowed, as a sentence part ("must lie in [0, 0.5)").
+        allowed: String,
+        /// Byte range in the file, for a source snippet.
+        span: Option<std::ops::Range<usize>>,
+    },
+    /// A TOML file cannot be parsed (syntax, unknown or missing key).
+    #[error("{}: {message}", path.display())]
+    Syntax {
+        /// File.
+        path: PathBuf,
+        /// The parser's message.
+        message: String,
+        /// Byte range in the file.
+        span: Option<std::ops::Range<usize>>,
+    },
+    /// A file cannot be read or written.
+    #[error("cannot {action} {}: {source}", path.display())]
+    File {
+        /// `read`, `write`, `create`.
+        action: &'static str,
+        /// File or folder.
+        path: PathBuf,
+        /// Cause.
+        #[source]
+        source: std::io::Error,
+    },
+    /// A command-line argument is not acceptable.
+    #[error("{argument}: found {found}; {allowed}")]
+    Argument {
+        /// Flag or positional name.
+        argument: String,
+        /// What was given.
+        found: String,
+        /// What is allowed.
+        allowed: String,
+    },
+    /// An impact run cannot go on.
+    #[error("impact at {velocity} m/s stopped at step {step}: {reason}")]
+    Impact {
+        /// Impact speed in m/s.
+        velocity: f64,
+        /// Step at which the run stopped.
+        step: u64,
+        /// Why.
+        reason: String,
+    },
+    /// A fit did not reach an acceptable law.
+    #[error("the fit did not converge: {reason}")]
+    Fit {
+        /// Why, with the residual reached.
+        reason: String,
+    },
+    /// A bed run cannot go on.
+    #[error("bed stopped at step {step}: {reason}")]
+    Bed {
+        /// Step at which the run stopped.
+        step: u64,
+        /// Why.
+        reason: String,
+    },
+    /// A figure cannot be drawn.
+    #[error("cannot draw {what}: {reason}")]
+    Figure {
+        /// Which figure.
+        what: String,
+        /// Why.
+        reason: String,
+    },
+}
+
+/// Result of a stage.
+pub type Result<T> = std::result::Result<T, Error>;
+
+impl Error {
+    /// File error with its path; for `map_err`.
+    pub fn file(action: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> Error {
+        let path = path.to_owned();
+        move |source| Error::File {
+            action,
+            path,
+            source,
+        }
+    }
+}

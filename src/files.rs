@@ -1,0 +1,81 @@
+//! Atomic writes: a file is either the old one or the whole new one, never a part.
+
+use crate::{Error, Result};
+use serde::Serialize;
+use std::io::Write;
+use std::path::Path;
+
+/// Write `bytes` to `path` through a temporary file in the same folder and a rename.
+///
+/// # Errors
+/// [`Error::File`] when the folder cannot be created or written.
+pub fn write_atomic(path: &Path, bytes: &[u8]) -> Result<()> {
+    let folder = match path.parent() {
+        Some(p) if !p.as_os_str().is_empty() => p,
+        _ => Path::new("."),
+    };
+    std::fs::create_dir_all(folder).map_err(Error::file("create", folder))?;
+    let mut file = temporary(folder).map_err(Error::file("write", path))?;
+    file.write_all(bytes).map_err(Error::file("write", path))?;
+    file.persist(path)
+        .map_err(|e| Error::file("write", path)(e.error))?;
+    Ok(())
+}
+
+/// Temporary file with the permissions any new file gets (tempfile's own are for the owner alone).
+fn temporary(folder: &Path) -> std::io::Result<tempfile::NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(std::fs::Permissions::from_mode(0o666));
+    }
+    builder.tempfile_in(folder)
+}
+
+/// Writes rows as CSV under a `#` provenance line.
+///
+/// # Errors
+/// [`Error::File`] when the file cannot be written.
+pub fn write_rows<R: Serialize>(path: &Path, provenance: &str, rows: &[R]) -> Result<()> {
+    let mut writer = csv::Writer::from_writer(format!("# {provenance}\n").into_bytes());
+    for row in rows {
+        writer
+            .serialize(row)
+            .map_err(|e| Error::file("write", path)(e.into()))?;
+    }
+    let bytes = writer
+        .into_inner()
+        .map_err(|e| Error::file("write", path)(e.into_error()))?;
+    write_atomic(path, &bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_second_write_replaces_the_first_and_leaves_nothing_else() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a/b.txt");
+        write_atomic(&path, b"one").unwrap();
+        write_atomic(&path, b"two").unwrap();
+        assert_eq!(std::fs::read(&path).unwrap(), b"two");
+        assert_eq!(
+            std::fs::read_dir(folder.path().join("a")).unwrap().count(),
+            1
+        );
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn files_are_readable_like_any_other_new_file() {
+        use std::os::unix::fs::PermissionsExt;
+        let folder = tempfile::tempdir().unwrap();
+        let (ours, plain) = (folder.path().join("ours"), folder.path().join("plain"));
+        write_atomic(&ours, b"").unwrap();
+        std::fs::write(&plain, b"").unwrap();
+        let mode = |path| std::fs::metadata(path).unwrap().permissions().mode();
+        assert_eq!(mode(ours), mode(plain));
+    }
+}

@@ -1,0 +1,126 @@
+//! Confidence of a fit: parameter intervals from a bootstrap over runs, and errors at speeds that were left out.
+
+use super::form::Form;
+use super::pulse::Pulse;
+use super::residual::Objective;
+use super::run::Run;
+use super::solve::polish;
+use crate::Result;
+use crate::contact::NormalLaw;
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64;
+use rayon::prelude::*;
+
+/// Refits of the bootstrap; each resamples the runs with replacement.
+pub const RESAMPLES: usize = 100;
+/// Seed of the bootstrap: the intervals of the same runs are the same numbers everywhere.
+const SEED: u64 = 1882;
+/// Part of the refits beyond either end of an interval: 95 % intervals.
+const TAIL: f64 = 0.025;
+
+/// Relative errors of a law that has not seen the speed it predicts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LeftOut {
+    /// Impact speed that was left out, m/s.
+    pub velocity: f64,
+    /// Error of F*.
+    pub max_force: f64,
+    /// Error of delta*.
+    pub max_displacement: f64,
+    /// Error of e.
+    pub restitution: f64,
+}
+
+/// 95 % intervals of the constants of `F`, each `[low, high]`; `None` for a single run.
+///
+/// The unit that is resampled is the run, because neighbouring samples of one curve are not independent. Refits
+/// start at the optimum `free`.
+///
+/// # Errors
+/// As [`polish`].
+pub fn intervals<F: Form>(form: &F, runs: &[Run], free: &[f64]) -> Result<Option<Vec<[f64; 2]>>> {
+    if runs.len() < 2 {
+        return Ok(None);
+    }
+    let draws: Vec<Vec<f64>> = {
+        let mut random = Pcg64::seed_from_u64(SEED);
+        (0..RESAMPLES)
+            .map(|_| draw(&mut random, runs.len()))
+            .collect()
+    };
+    let refits = draws
+        .par_iter()
+        .map(|weights| {
+            let objective = Objective {
+                form,
+                runs,
+                weights,
+            };
+            let free = polish(&objective, free)?;
+            Ok(constants(form, &free))
+        })
+        .collect::<Result<Vec<Option<Vec<f64>>>>>()?;
+    let refits: Vec<Vec<f64>> = refits.into_iter().flatten().collect();
+    let count = refits.first().map_or(0, Vec::len);
+    let interval = |j: usize| {
+        let mut values: Vec<f64> = refits.iter().map(|c| c[j]).collect();
+        values.sort_by(f64::total_cmp);
+        [TAIL, 1.0 - TAIL].map(|p| values[(p * (values.len() - 1) as f64).round() as usize])
+    };
+    Ok(Some((0..count).map(interval).collect()))
+}
+
+/// How often each run is drawn in one resample.
+fn draw(random: &mut Pcg64, runs: usize) -> Vec<f64> {
+    let mut weights = vec![0.0; runs];
+    for _ in 0..runs {
+        weights[random.random_range(0..runs)] += 1.0;
+    }
+    weights
+}
+
+fn constants<F: Form>(form: &F, free: &[f64]) -> Option<Vec<f64>> {
+    let law = form.law(free, f64::MAX)?;
+    let mut all = F::constants(law.loading());
+    all.extend(form.density().map(|_| law.inertia().coefficient()));
+    all.extend(law.unloading().constants());
+    Some(all)
+}
+
+/// Leave-one-speed-out errors: for each run, `fit` makes a form and its free numbers from the others, which predict
+/// it. Empty for a single run.
+///
+/// # Errors
+/// As `fit`.
+pub fn left_out<F, B>(runs: &[Run], fit: B) -> Result<Vec<LeftOut>>
+where
+    F: Form,
+    B: Fn(&[Run]) -> Result<(F, Vec<f64>)> + Sync,
+{
+    if runs.len() < 2 {
+        return Ok(Vec::new());
+    }
+    (0..runs.len())
+        .into_par_iter()
+        .map(|i| {
+            let (mut others, run) = (runs.to_vec(), &runs[i]);
+            others.remove(i);
+            let (form, free) = fit(&others)?;
+            Ok(predict(&form, &free, run))
+        })
+        .collect()
+}
+
+fn predict<F: Form>(form: &F, free: &[f64], run: &Run) -> LeftOut {
+    let law = form.law(free, f64::MAX);
+    let pulse = law.and_then(|law| Pulse::of(&law, run.energy, run.max_flattening));
+    let error = |figure: fn(&Pulse) -> f64, truth: f64| {
+        pulse.as_ref().map_or(f64::NAN, |p| figure(p) / truth - 1.0)
+    };
+    LeftOut {
+        velocity: run.velocity,
+        max_force: error(|p| p.force, run.max_force),
+        max_displacement: error(|p| p.flattening, run.max_flattening),
+        restitution: error(|p| p.restitution, run.restitution),
+    }
+}

@@ -1,0 +1,243 @@
+//! Fit of the elastic-plastic law to simulated impacts: all speeds of a material at once, in both forms.
+
+pub mod confidence;
+pub mod form;
+pub mod pulse;
+pub mod quality;
+pub mod residual;
+pub mod run;
+pub mod solve;
+
+use crate::case::Case;
+use crate::contact::elastoplastic::{Elastoplastic, YieldUnits};
+use crate::contact::loading::SoftenedHertz;
+use crate::contact::spline::SplineLoading;
+use crate::curve::{Impact, Status};
+use crate::theory::hertz::Hertz;
+use crate::{Error, Result};
+use confidence::LeftOut;
+use form::{ClosedFormFit, Form, SplineFit};
+use quality::Quality;
+use residual::Objective;
+use run::{Run, Scale};
+
+/// Largest error of F*, delta* and e at any speed with which a law counts as good.
+pub const THRESHOLD: f64 = 0.03;
+
+/// Fall of the largest error of F*, delta* and e, over that error, for which the inertia term is kept.
+pub const INERTIA_GAIN: f64 = 0.1;
+
+/// A law fitted in one form.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FittedForm<L> {
+    /// The law.
+    pub law: Elastoplastic<L>,
+    /// Its errors, one entry a speed.
+    pub quality: Vec<Quality>,
+    /// 95 % intervals of its constants: those of the loading curve (closed form: $w_1, b, q$; spline: the force of
+    /// each knot), then $\kappa$ of the inertia term if the law has one, then $c, k, n_1, n_2$. `None` for a single speed.
+    pub intervals: Option<Vec<[f64; 2]>>,
+    /// Errors at speeds that were left out of the fit; empty for a single speed.
+    pub left_out: Vec<LeftOut>,
+}
+
+/// What the impacts ask for.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Outcome {
+    /// Nothing yields: the law is Hertz's.
+    Elastic {
+        /// Hertz's law of the material.
+        law: Hertz,
+        /// Its errors, one entry a speed.
+        quality: Vec<Quality>,
+    },
+    /// The law in both forms.
+    Yielding {
+        /// Closed form.
+        closed_form: Box<FittedForm<SoftenedHertz>>,
+        /// Spline.
+        spline: Box<FittedForm<SplineLoading>>,
+    },
+}
+
+/// Result of a fit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fit {
+    /// The law.
+    pub outcome: Outcome,
+    /// Largest flattening delta*/R among the impacts.
+    pub flattening: f64,
+    /// Smallest and largest impact speed, m/s.
+    pub velocities: [f64; 2],
+    /// Speeds of impacts that were not used because they did not rebound, m/s.
+    pub skipped: Vec<f64>,
+}
+
+/// Fit the law of a case's material to its impacts.
+///
+/// A material without yield strength, or impacts that all stay below its yield speed, give Hertz's law.
+/// Otherwise both forms are fitted to F*, delta*, e, delta_res, contact time and the force curves of all
+/// impacts together ([`residual`]), with bootstrap intervals and errors at left-out speeds ([`confidence`]). Each form is
+/// fitted without and with an inertia term ([`crate::contact::inertia`]); the term is kept where it lowers the largest
+/// error by [`INERTIA_GAIN`]. A single speed cannot tell inertia from hardness and gets none.
+///
+/// # Errors
+/// [`Error::Fit`] when no impact rebounded, an impact's data make no sense, or no admissible law is found.
+pub fn fit(case: &Case, impacts: &[Impact]) -> Result<Fit> {
+    let rebounded = |i: &&Impact| i.summary.status == Status::Ok;
+    let used: Vec<&Impact> = impacts.iter().filter(rebounded).collect();
+    let speed = |i: &Impact| i.summary.velocity_m_s;
+    let speeds: Vec<f64> = used.iter().map(|i| speed(i)).collect();
+    let top = speeds.iter().copied().fold(0.0, f64::max);
+    if used.is_empty() {
+        return Err(Error::Fit {
+            reason: "none of the impacts rebounded".to_owned(),
+        });
+    }
+    let point = case
+        .material
+        .yield_point(case.radius, crate::material::YIELD_PRESSURE_RATIO);
+    let scale = Scale::of(&case.material, case.radius);
+    let yielding = scale.filter(|_| point.is_some_and(|p| top > p.velocity));
+    let reduce = |scale: &Scale| -> Result<Vec<Run>> {
+        let mut runs = used
+            .iter()
+            .map(|i| Run::reduce(i, scale))
+            .collect::<Result<Vec<_>>>()?;
+        runs.sort_by(|a, b| a.velocity.total_cmp(&b.velocity));
+        Ok(runs)
+    };
+    let outcome = match yielding {
+        None => {
+            let scale = Scale::elastic(&case.material, case.radius);
+            elastic(case, &reduce(&scale)?, &scale)
+        }
+        Some(scale) => fit_both(&reduce(&scale)?, &scale)?,
+    };
+    let most = used
+        .iter()
+        .map(|i| i.summary.max_displacement_m)
+        .fold(0.0, f64::max);
+    Ok(Fit {
+        outcome,
+        flattening: most / case.radius,
+        velocities: [speeds.iter().copied().fold(f64::INFINITY, f64::min), top],
+        skipped: impacts
+            .iter()
+            .filter(|i| !rebounded(i))
+            .map(speed)
+            .collect(),
+    })
+}
+
+fn elastic(case: &Case, runs: &[Run], scale: &Scale) -> Outcome {
+    let law = Hertz::of(&case.material);
+    let quality = runs.iter().map(|r| Quality::of(&law, r, scale)).collect();
+    Outcome::Elastic { law, quality }
+}
+
+fn fit_both(runs: &[Run], scale: &Scale) -> Result<Outcome> {
+    let units = scale.units();
+    let of_closed_form = |runs: &[Run], density| closed_form(runs, units, density);
+    let of_spline = |runs: &[Run], density| spline(runs, units, density);
+    let (closed_form, spline) = rayon::join(
+        || choose(runs, scale, of_closed_form),
+        || choose(runs, scale, of_spline),
+    );
+    Ok(Outcome::Yielding {
+        closed_form: Box::new(closed_form?),
+        spline: Box::new(spline?),
+    })
+}
+
+/// Closed form and its free numbers for `runs`, with an inertia term if a density is given.
+fn closed_form(
+    runs: &[Run],
+    units: YieldUnits,
+    density: Option<f64>,
+) -> Result<(ClosedFormFit, Vec<f64>)> {
+    let form = ClosedFormFit { units, density };
+    let weights = vec![1.0; runs.len()];
+    let free = solve::solve(&Objective {
+        form: &form,
+        runs,
+        weights: &weights,
+    })?;
+    Ok((form, free))
+}
+
+/// Spline and its free numbers for `runs`, started from the closed form.
+fn spline(runs: &[Run], units: YieldUnits, density: Option<f64>) -> Result<(SplineFit, Vec<f64>)> {
+    let (form, free) = closed_form(runs, units, density)?;
+    let law = form.law(&free, f64::MAX).ok_or_else(inadmissible)?;
+    let knotted = SplineFit::new(&law, &form, &free, runs);
+    let weights = vec![1.0; runs.len()];
+    let objective = Objective {
+        form: &knotted,
+        runs,
+        weights: &weights,
+    };
+    let free = solve::polish(&objective, &knotted.start())?;
+    Ok((knotted, free))
+}
+
+/// The fit of a form to `runs`, with an inertia term if that is worth it; `again` makes a fit for a density.
+fn choose<F, B>(runs: &[Run], scale: &Scale, again: B) -> Result<FittedForm<F::Curve>>
+where
+    F: Form,
+    B: Fn(&[Run], Option<f64>) -> Result<(F, Vec<f64>)> + Sync,
+{
+    let (still, free) = again(runs, None)?;
+    if runs.len() > 1 {
+        let density = Some(scale.density());
+        let (moving, more) = again(runs, density)?;
+        let bound = (1.0 - INERTIA_GAIN) * worst(&still, &free, runs, scale)?;
+        if worst(&moving, &more, runs, scale)? <= bound {
+            return finish(&moving, &more, runs, scale, |runs| again(runs, density));
+        }
+    }
+    finish(&still, &free, runs, scale, |runs| again(runs, None))
+}
+
+/// Law of a solution, valid as far as the runs go.
+fn law_of<F: Form>(
+    form: &F,
+    free: &[f64],
+    runs: &[Run],
+    scale: &Scale,
+) -> Result<Elastoplastic<F::Curve>> {
+    let most = runs.iter().map(|r| r.max_flattening).fold(0.0, f64::max);
+    let law = form.law(free, most * scale.units().flattening);
+    law.ok_or_else(inadmissible)
+}
+
+/// Largest error of a solution at any speed.
+fn worst<F: Form>(form: &F, free: &[f64], runs: &[Run], scale: &Scale) -> Result<f64> {
+    let law = law_of(form, free, runs, scale)?;
+    let errors = runs.iter().map(|r| Quality::of(&law, r, scale).worst());
+    // a NaN is worst of all
+    Ok(errors.fold(0.0, |worst, e| if e <= worst { worst } else { e }))
+}
+
+/// The law of a solution with its quality, intervals and left-out errors; `again` repeats the fit on other runs.
+fn finish<F: Form>(
+    form: &F,
+    free: &[f64],
+    runs: &[Run],
+    scale: &Scale,
+    again: impl Fn(&[Run]) -> Result<(F, Vec<f64>)> + Sync,
+) -> Result<FittedForm<F::Curve>> {
+    let law = law_of(form, free, runs, scale)?;
+    Ok(FittedForm {
+        quality: runs.iter().map(|r| Quality::of(&law, r, scale)).collect(),
+        intervals: confidence::intervals(form, runs, free)?,
+        left_out: confidence::left_out(runs, again)?,
+        law,
+    })
+}
+
+fn inadmissible() -> Error {
+    Error::Fit {
+        reason: "the solution is not an admissible law".to_owned(),
+    }
+}

@@ -1,0 +1,172 @@
+//! Solvers of the fit: a simplex that finds the basin, then damped Gauss-Newton steps to its bottom.
+
+use super::form::{Form, UNLOADING};
+use super::residual::{Objective, Part};
+use crate::{Error, Result};
+use argmin::core::{CostFunction, Executor, State};
+use argmin::solver::neldermead::NelderMead;
+use nalgebra::{DMatrix, DVector};
+
+/// Edge of the first simplex, in free numbers (logarithms).
+const SIMPLEX_EDGE: f64 = 0.5;
+/// Simplex steps for the loading numbers, and for those of the unloading.
+const SIMPLEX_STEPS: u64 = 250;
+/// Standard deviation of the cost over the simplex at which it stops.
+const SIMPLEX_SPREAD: f64 = 1e-4;
+/// Largest number of Gauss-Newton steps.
+const POLISH_STEPS: usize = 60;
+/// Relative fall of the cost below which polishing stops.
+const POLISH_FALL: f64 = 1e-9;
+/// Step of the difference quotients in free numbers.
+const DIFFERENCE: f64 = 1e-6;
+
+/// Some of the free numbers, the others held: what the simplex sees.
+struct Slice<'a, F> {
+    objective: &'a Objective<'a, F>,
+    part: Part,
+    whole: &'a [f64],
+    first: usize,
+}
+
+impl<F: Form> Slice<'_, F> {
+    fn whole(&self, some: &[f64]) -> Vec<f64> {
+        let mut free = self.whole.to_vec();
+        free[self.first..self.first + some.len()].copy_from_slice(some);
+        free
+    }
+}
+
+impl<F: Form> CostFunction for Slice<'_, F> {
+    type Param = Vec<f64>;
+    type Output = f64;
+
+    fn cost(&self, some: &Vec<f64>) -> std::result::Result<f64, argmin::core::Error> {
+        // a simplex needs comparable numbers: inadmissible is worse than anything a run can give
+        Ok(self
+            .objective
+            .cost(&self.whole(some), self.part)
+            .min(f64::MAX.sqrt()))
+    }
+}
+
+/// Free numbers at the least cost: simplex on the loading, simplex on the unloading, then all together.
+///
+/// # Errors
+/// [`Error::Fit`] when the start is not admissible or a solver stops without a result.
+pub fn solve<F: Form>(objective: &Objective<'_, F>) -> Result<Vec<f64>> {
+    let mut free = objective.form.start();
+    let split = free.len() - UNLOADING;
+    free = simplex(objective, Part::Loading, &free, 0..split)?;
+    free = simplex(objective, Part::Unloading, &free, split..free.len())?;
+    polish(objective, &free)
+}
+
+/// Nelder-Mead over `range` of the free numbers.
+fn simplex<F: Form>(
+    objective: &Objective<'_, F>,
+    part: Part,
+    whole: &[f64],
+    range: std::ops::Range<usize>,
+) -> Result<Vec<f64>> {
+    let slice = Slice {
+        objective,
+        part,
+        whole,
+        first: range.start,
+    };
+    let corner = whole[range].to_vec();
+    let mut corners = vec![corner.clone()];
+    for i in 0..corner.len() {
+        let mut moved = corner.clone();
+        moved[i] += SIMPLEX_EDGE;
+        corners.push(moved);
+    }
+    let failed = |e: argmin::core::Error| Error::Fit {
+        reason: format!("the simplex stopped: {e}"),
+    };
+    let solver = NelderMead::new(corners)
+        .with_sd_tolerance(SIMPLEX_SPREAD)
+        .map_err(failed)?;
+    let result = Executor::new(slice, solver)
+        .configure(|state| state.max_iters(SIMPLEX_STEPS))
+        .timer(false)
+        .run()
+        .map_err(failed)?;
+    let best = result.state().get_best_param().cloned().unwrap_or(corner);
+    let mut free = whole.to_vec();
+    free[slice_range(&best, whole, part)].copy_from_slice(&best);
+    Ok(free)
+}
+
+/// Where the numbers of `part` lie among all.
+fn slice_range(some: &[f64], whole: &[f64], part: Part) -> std::ops::Range<usize> {
+    match part {
+        Part::Unloading => whole.len() - some.len()..whole.len(),
+        Part::Loading | Part::All => 0..some.len(),
+    }
+}
+
+/// Levenberg-Marquardt from `free` until the cost no longer falls.
+///
+/// # Errors
+/// [`Error::Fit`] when `free` is not admissible.
+pub fn polish<F: Form>(objective: &Objective<'_, F>, free: &[f64]) -> Result<Vec<f64>> {
+    let mut free = free.to_vec();
+    let mut damping = 1e-3;
+    let mut cost = objective.cost(&free, Part::All);
+    for _ in 0..POLISH_STEPS {
+        let (jacobian, residuals) = jacobian(objective, &free)?;
+        let normal = jacobian.transpose() * &jacobian;
+        let downhill = jacobian.transpose() * residuals;
+        let mut fall = 0.0;
+        while damping < 1e9 && fall <= 0.0 {
+            let mut damped = normal.clone();
+            for i in 0..free.len() {
+                damped[(i, i)] *= 1.0 + damping;
+            }
+            let Some(step) = damped.cholesky().map(|c| c.solve(&downhill)) else {
+                damping *= 10.0;
+                continue;
+            };
+            let trial: Vec<f64> = free.iter().zip(step.iter()).map(|(a, b)| a - b).collect();
+            let there = objective.cost(&trial, Part::All);
+            if there < cost {
+                fall = (cost - there) / cost;
+                (free, cost) = (trial, there);
+                damping *= 0.1;
+            } else {
+                damping *= 10.0;
+            }
+        }
+        if fall < POLISH_FALL {
+            break;
+        }
+    }
+    Ok(free)
+}
+
+/// Residuals and their derivatives by forward differences (backward where forward is not admissible).
+fn jacobian<F: Form>(
+    objective: &Objective<'_, F>,
+    free: &[f64],
+) -> Result<(DMatrix<f64>, DVector<f64>)> {
+    let lost = || Error::Fit {
+        reason: "no admissible law near the start".to_owned(),
+    };
+    let here = objective.residuals(free, Part::All).ok_or_else(lost)?;
+    let mut matrix = DMatrix::zeros(here.len(), free.len());
+    for j in 0..free.len() {
+        let at = |step: f64| {
+            let mut moved = free.to_vec();
+            moved[j] += step;
+            objective.residuals(&moved, Part::All).map(|r| (step, r))
+        };
+        let (step, there) = at(DIFFERENCE)
+            .or_else(|| at(-DIFFERENCE))
+            .ok_or_else(lost)?;
+        for i in 0..here.len() {
+            matrix[(i, j)] = (there[i] - here[i]) / step;
+        }
+    }
+    Ok((matrix, DVector::from_vec(here)))
+}

@@ -1,0 +1,329 @@
+//! Impact: one sphere thrown at a rigid wall, from set-up to curve, by the total Lagrangian material point method.
+//!
+//! Runs in units R = 1, rho = 1, E = 1. Displacements and velocities live on the nodes of a grid that never moves, so
+//! there is no velocity transfer and no transfer loss; points carry only their plastic state.
+
+pub mod banded;
+pub mod basis;
+pub mod body;
+pub mod contact;
+pub mod kernel;
+pub mod record;
+pub mod setup;
+pub mod timestep;
+
+use crate::curve::{Impact, ParticleMap, Status};
+use crate::material::flow::{FlowStress, LinearHardening, PerfectlyPlastic};
+use crate::material::stress::{Constitutive, Elastic, J2, Moduli};
+use crate::material::{Flow, Material};
+use crate::plan::Plan;
+use crate::space::Axisymmetric;
+use kernel::Purpose;
+use record::{Frame, Record, Snapshot};
+use setup::Model;
+use timestep::StabilityLimit;
+
+/// Outputs over the expected contact time.
+const OUTPUTS: f64 = 400.0;
+/// Energy imbalance (of the incident kinetic energy) beyond which a run is stopped as unstable.
+const UNSTABLE: f64 = 0.05;
+/// Most steps between refreshes of the stable time step and the contact candidates.
+const REFRESH: f64 = 50.0;
+/// Share of a cell that the wall may cover between refreshes: the stable step follows the strain of fast impacts.
+const COVERED: f64 = 0.5;
+/// Contact violation that counts as solved, in impact speeds.
+const CONTACT_TOLERANCE: f64 = 1e-7;
+
+/// What a simulated impact leaves: curve, figures and the particle at two moments.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Simulated {
+    /// Curve and figures.
+    pub impact: Impact,
+    /// The particle at its largest displacement.
+    pub compressed: ParticleMap,
+    /// The particle after its rebound.
+    pub rebound: ParticleMap,
+}
+
+/// Simulate one impact as planned.
+///
+/// Always returns what the run has; [`Status`] says whether it finished.
+#[must_use]
+pub fn simulate(material: &Material, radius: f64, plan: &Plan) -> Simulated {
+    let moduli = Moduli::new(1.0, material.poisson_ratio);
+    let started = std::time::Instant::now();
+    let speed = plan.velocity / (material.young_modulus / material.density).sqrt();
+    let record = match material.flow.filter(|_| plan.plastic) {
+        None => run_degree(Elastic { moduli }, plan, speed),
+        Some(flow) => run_plastic(moduli, &flow, material.young_modulus, plan, speed),
+    };
+    let seconds = started.elapsed().as_secs_f64();
+    Simulated {
+        impact: record.impact(material, radius, plan.velocity, seconds),
+        compressed: record.compressed.map(material, radius),
+        rebound: record.rebound.map(material, radius),
+    }
+}
+
+/// The flow stress that the material calls for.
+fn run_plastic(moduli: Moduli, flow: &Flow, unit: f64, plan: &Plan, speed: f64) -> Record {
+    fn with<F: FlowStress>(moduli: Moduli, flow: F, plan: &Plan, speed: f64) -> Record {
+        run_degree(J2 { moduli, flow }, plan, speed)
+    }
+    let strength = flow.yield_strength / unit;
+    if flow.hardening_modulus > 0.0 {
+        let modulus = flow.hardening_modulus / unit;
+        with(moduli, LinearHardening { strength, modulus }, plan, speed)
+    } else {
+        with(moduli, PerfectlyPlastic { strength }, plan, speed)
+    }
+}
+
+/// The spline degree that the plan calls for.
+fn run_degree<M: Constitutive<Axisymmetric>>(material: M, plan: &Plan, speed: f64) -> Record {
+    let tolerance = CONTACT_TOLERANCE * speed;
+    match plan.grid.degree {
+        1 => Run::new(
+            setup::build::<M, 1, 4>(&plan.grid, material, tolerance),
+            plan,
+            speed,
+        )
+        .finish(),
+        2 => Run::new(
+            setup::build::<M, 2, 9>(&plan.grid, material, tolerance),
+            plan,
+            speed,
+        )
+        .finish(),
+        _ => Run::new(
+            setup::build::<M, 3, 16>(&plan.grid, material, tolerance),
+            plan,
+            speed,
+        )
+        .finish(),
+    }
+}
+
+/// A run in progress.
+struct Run<'a, M: Constitutive<Axisymmetric>, const N: usize> {
+    model: Model<M, N>,
+    plan: &'a Plan,
+    speed: f64,
+    u: Vec<[f64; 2]>,
+    v: Vec<[f64; 2]>,
+    old: Vec<[f64; 2]>,
+    force: Vec<[f64; 2]>,
+    limit: StabilityLimit<Axisymmetric>,
+    dt: f64,
+    time: f64,
+    step: u64,
+    next_refresh: u64,
+    impulse: f64,
+    contact_work: f64,
+    plastic: f64,
+    contact_radius: f64,
+    contact_end: f64,
+    mass: f64,
+    frames: Vec<Frame>,
+    closure: f64,
+    compressed: Option<Snapshot>,
+    failure: Option<String>,
+}
+
+impl<'a, M: Constitutive<Axisymmetric>, const N: usize> Run<'a, M, N> {
+    fn new(model: Model<M, N>, plan: &'a Plan, speed: f64) -> Self {
+        let nodes = model.mass.len();
+        let mass = model.mass.iter().sum::<f64>();
+        let first = Frame {
+            kinetic: 0.5 * mass * speed * speed,
+            height: 2.0,
+            ..Frame::default()
+        };
+        Run {
+            limit: StabilityLimit::new(nodes),
+            u: vec![[0.0; 2]; nodes],
+            v: vec![[0.0, -speed]; nodes],
+            old: vec![[0.0; 2]; nodes],
+            force: vec![[0.0; 2]; nodes],
+            model,
+            plan,
+            speed,
+            dt: 0.0,
+            time: 0.0,
+            step: 0,
+            next_refresh: 0,
+            impulse: 0.0,
+            contact_work: 0.0,
+            plastic: 0.0,
+            contact_radius: 0.0,
+            contact_end: 0.0,
+            mass,
+            frames: vec![first],
+            closure: 0.0,
+            compressed: None,
+            failure: None,
+        }
+    }
+
+    /// Step until the particle has rung out after its rebound, or the run must stop.
+    fn finish(mut self) -> Record {
+        let interval = self.plan.estimate.contact_time / OUTPUTS;
+        let mut next_output = interval;
+        while self.failure.is_none() && !self.is_over() {
+            if self.step == self.next_refresh {
+                self.refresh();
+            }
+            let output = self.time >= next_output;
+            if output {
+                next_output += interval;
+            }
+            self.advance(output);
+        }
+        self.into_record()
+    }
+
+    /// Rebounded and rung out, or out of time.
+    fn is_over(&self) -> bool {
+        let rung = self.time > self.contact_end + self.plan.ring_time;
+        (rung && self.mean(&self.v, 1) > 0.0) || self.time > self.plan.longest_time
+    }
+
+    /// Stable time step and contact candidates of the present configuration.
+    fn refresh(&mut self) {
+        let iterations = if self.step == 0 { 60 } else { 3 };
+        let stable = self.limit.estimate(
+            &mut self.model.points,
+            &self.u,
+            &self.model.recip_mass,
+            iterations,
+        );
+        self.dt = stable * self.plan.grid.dt_share;
+        let covering = COVERED * self.plan.grid.fine / (self.speed * self.dt);
+        let interval = covering.clamp(1.0, REFRESH).floor();
+        self.next_refresh += interval as u64;
+        let horizon = 2.0 * interval * self.dt;
+        self.model
+            .contact
+            .refresh(&self.u, 2.0 * self.speed, horizon);
+    }
+
+    /// One step of the symplectic scheme: forces at $u_n$, velocities to n + 1/2, contact, displacements to n + 1.
+    fn advance(&mut self, output: bool) {
+        let purpose = if output {
+            Purpose::Audit
+        } else {
+            Purpose::Step
+        };
+        let sweep = self.model.points.sweep(purpose, &self.u, &mut self.force);
+        self.plastic += sweep.plastic;
+        if !(sweep.least_j > 0.0) {
+            self.failure = Some(format!(
+                "volume ratio J = {:e} at a material point",
+                sweep.least_j
+            ));
+        }
+        let dt = self.dt;
+        for n in 0..self.u.len() {
+            self.old[n] = self.v[n];
+            for k in 0..2 {
+                self.v[n][k] += dt * self.force[n][k] * self.model.recip_mass[n][k];
+            }
+        }
+        let touch =
+            self.model
+                .contact
+                .solve(dt, &self.u, &self.old, &mut self.v, &self.model.recip_mass);
+        self.impulse += touch.impulse;
+        self.contact_work += touch.work;
+        self.contact_radius = self.contact_radius.max(touch.radius);
+        if touch.impulse > 0.0 {
+            self.contact_end = self.time + dt;
+        }
+        if output {
+            self.record(sweep.elastic, touch.impulse);
+        }
+        for (u, v) in self.u.iter_mut().zip(&self.v) {
+            u[0] += dt * v[0];
+            u[1] += dt * v[1];
+        }
+        self.time += dt;
+        self.step += 1;
+    }
+
+    /// Mass average of component `axis` of a nodal field.
+    fn mean(&self, field: &[[f64; 2]], axis: usize) -> f64 {
+        let sum: f64 = field
+            .iter()
+            .zip(&self.model.mass)
+            .map(|(x, m)| m * x[axis])
+            .sum();
+        sum / self.mass
+    }
+
+    /// Keep a frame at time n (`impulse` of the step that is under way belongs half to each side).
+    fn record(&mut self, elastic: f64, impulse: f64) {
+        let kinetic: f64 = (self.old.iter().zip(&self.v).zip(&self.model.mass))
+            .map(|((a, b), m)| 0.5 * m * (a[0] * b[0] + a[1] * b[1]))
+            .sum();
+        let incident = self.frames[0].kinetic;
+        let balance = kinetic + elastic + self.plastic - self.contact_work - incident;
+        let closure = (balance / incident).abs();
+        if !(closure <= UNSTABLE) {
+            self.failure = Some(format!(
+                "energy imbalance {closure:e} of the incident energy"
+            ));
+        }
+        self.closure = self.closure.max(closure);
+        let along = |marker: &[(usize, f64)]| -> f64 {
+            marker.iter().map(|(n, w)| w * self.u[*n][1]).sum()
+        };
+        let [south, centre, north] = &self.model.markers;
+        let frame = Frame {
+            time: self.time,
+            displacement: -self.mean(&self.u, 1),
+            centre_displacement: -along(centre),
+            impulse: self.impulse - 0.5 * impulse,
+            contact_radius: self.contact_radius,
+            kinetic,
+            elastic,
+            plastic: self.plastic,
+            height: 2.0 + along(north) - along(south),
+        };
+        self.contact_radius = 0.0;
+        self.frames.push(frame);
+        if self.compressed.is_none() && self.mean(&self.v, 1) >= 0.0 {
+            self.compressed = Some(self.snapshot());
+        }
+    }
+
+    /// The particle as it is now.
+    fn snapshot(&self) -> Snapshot {
+        Snapshot {
+            points: self.model.points.view(&self.u),
+            outline: self.model.contact.outline(&self.u),
+        }
+    }
+
+    fn into_record(self) -> Record {
+        let exit_speed = self.mean(&self.v, 1);
+        let rebound = self.snapshot();
+        let status = match self.failure {
+            Some(reason) => Status::Failed(format!("step {}: {reason}", self.step)),
+            None if self.time > self.plan.longest_time => Status::NoRebound,
+            None => Status::Ok,
+        };
+        Record {
+            contact_end: self.contact_end,
+            exit_speed,
+            speed: self.speed,
+            closure: self.closure,
+            plastic_strain: self.model.points.plastic_strain_volume() / self.mass,
+            points: self.model.points.count(),
+            steps: self.step,
+            frames: self.frames,
+            compressed: self.compressed.unwrap_or_default(),
+            rebound,
+            status,
+        }
+    }
+}

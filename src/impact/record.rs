@@ -1,0 +1,214 @@
+//! Record of a run: what is kept at every output, and how it becomes a curve and its figures in SI units.
+
+use crate::curve::{Curve, Impact, MapPoint, Part, ParticleMap, Sample, Status, Summary};
+use crate::impact::kernel::PointView;
+use crate::material::Material;
+
+/// One output in run units (R, R/c0, E R^2, E R^3).
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Frame {
+    /// Time.
+    pub time: f64,
+    /// Approach of the centre of mass.
+    pub displacement: f64,
+    /// Travel of the material centre.
+    pub centre_displacement: f64,
+    /// Wall impulse since first contact.
+    pub impulse: f64,
+    /// Contact radius.
+    pub contact_radius: f64,
+    /// Kinetic energy.
+    pub kinetic: f64,
+    /// Elastic energy.
+    pub elastic: f64,
+    /// Plastic work so far.
+    pub plastic: f64,
+    /// Height of the particle along the impact axis.
+    pub height: f64,
+}
+
+/// The particle at one moment, in run units.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Snapshot {
+    /// Material points.
+    pub points: Vec<PointView>,
+    /// Surface from the south pole upwards: distance from the axis, height above the wall.
+    pub outline: Vec<(f64, f64)>,
+}
+
+impl Snapshot {
+    /// Map in SI units.
+    #[must_use]
+    pub fn map(&self, material: &Material, radius: f64) -> ParticleMap {
+        let inside = self.points.iter().map(|p| MapPoint {
+            part: Part::Inside,
+            r_m: p.position[0] * radius,
+            z_m: p.position[1] * radius,
+            size_m: (p.volume / (std::f64::consts::TAU * p.reference[0])).sqrt() * radius,
+            equivalent_plastic_strain: p.plastic_strain,
+            von_mises_pa: p.von_mises * material.young_modulus,
+        });
+        let surface = self.outline.iter().map(|&(r, z)| MapPoint {
+            part: Part::Surface,
+            r_m: r * radius,
+            z_m: z * radius,
+            size_m: 0.0,
+            equivalent_plastic_strain: 0.0,
+            von_mises_pa: 0.0,
+        });
+        ParticleMap {
+            points: inside.chain(surface).collect(),
+        }
+    }
+}
+
+/// All that a finished (or stopped) run knows.
+#[derive(Debug, Clone)]
+pub struct Record {
+    /// Outputs in order of time; the first is first contact.
+    pub frames: Vec<Frame>,
+    /// Time of the last loss of contact.
+    pub contact_end: f64,
+    /// Velocity of the centre of mass at the end, positive away from the wall.
+    pub exit_speed: f64,
+    /// Impact speed.
+    pub speed: f64,
+    /// Largest energy imbalance over the incident kinetic energy.
+    pub closure: f64,
+    /// Volume mean of the equivalent plastic strain.
+    pub plastic_strain: f64,
+    /// Material points.
+    pub points: usize,
+    /// Steps.
+    pub steps: u64,
+    /// How it ended.
+    pub status: Status,
+    /// The particle at its largest displacement.
+    pub compressed: Snapshot,
+    /// The particle at the end.
+    pub rebound: Snapshot,
+}
+
+/// Share of the contact time over which F is averaged before its maximum is taken.
+const FORCE_WINDOW: f64 = 0.02;
+
+impl Record {
+    /// Linear interpolation of a quantity at `time`.
+    fn at(&self, time: f64, value: impl Fn(&Frame) -> f64) -> f64 {
+        let f = &self.frames;
+        if f.len() < 2 {
+            return value(&f[0]);
+        }
+        let k = f.partition_point(|x| x.time < time).clamp(1, f.len() - 1);
+        let (a, b) = (&f[k - 1], &f[k]);
+        let s = ((time - a.time) / (b.time - a.time)).clamp(0.0, 1.0);
+        value(a) + s * (value(b) - value(a))
+    }
+
+    /// Largest force averaged over 2 % of the contact time.
+    fn max_force(&self) -> f64 {
+        let half = 0.5 * FORCE_WINDOW * self.contact_end;
+        let (from, to) = (half, self.contact_end - half);
+        let mean = |t: f64| {
+            let after = self.at(t + half, |f| f.impulse);
+            (after - self.at(t - half, |f| f.impulse)) / (2.0 * half)
+        };
+        // the mean is piecewise linear between the frames' times shifted by half a window
+        self.frames
+            .iter()
+            .flat_map(|f| [f.time - half, f.time + half])
+            .filter(|t| *t >= from && *t <= to)
+            .map(mean)
+            .fold(0.0, f64::max)
+    }
+
+    /// Largest value of a quantity, by the parabola through the largest frame and its neighbours.
+    fn largest(&self, value: impl Fn(&Frame) -> f64) -> f64 {
+        let y: Vec<f64> = self.frames.iter().map(value).collect();
+        let k = (0..y.len()).fold(0, |b, i| if y[i] > y[b] { i } else { b });
+        if k == 0 || k + 1 == y.len() {
+            return y[k];
+        }
+        let (rise, bend) = (
+            0.5 * (y[k + 1] - y[k - 1]),
+            y[k + 1] - 2.0 * y[k] + y[k - 1],
+        );
+        if bend < 0.0 {
+            y[k] - 0.5 * rise * rise / bend
+        } else {
+            y[k]
+        }
+    }
+
+    /// Mean height after loss of contact, weighted by a Hann window so that part periods do not bias it.
+    fn resting_height(&self) -> f64 {
+        let end = self.frames.last().map_or(0.0, |f| f.time);
+        let span = end - self.contact_end;
+        let (mut sum, mut weight) = (0.0, 0.0);
+        for pair in self.frames.windows(2) {
+            let mid = 0.5 * (pair[0].time + pair[1].time);
+            if mid > self.contact_end && span > 0.0 {
+                let phase = std::f64::consts::PI * (mid - self.contact_end) / span;
+                let w = phase.sin().powi(2) * (pair[1].time - pair[0].time);
+                sum += w * 0.5 * (pair[0].height + pair[1].height);
+                weight += w;
+            }
+        }
+        if weight > 0.0 {
+            sum / weight
+        } else {
+            self.frames.last().map_or(2.0, |f| f.height)
+        }
+    }
+
+    /// Curve and figures in SI units.
+    #[must_use]
+    pub fn impact(&self, material: &Material, radius: f64, velocity: f64, wall_s: f64) -> Impact {
+        let time = radius / (material.young_modulus / material.density).sqrt();
+        let force = material.young_modulus * radius * radius;
+        let energy = force * radius;
+        let mut samples = Vec::with_capacity(self.frames.len());
+        for pair in self.frames.windows(2) {
+            if pair[0].time > self.contact_end {
+                break;
+            }
+            let (a, b) = (&pair[0], &pair[1]);
+            let middle = |f: fn(&Frame) -> f64| 0.5 * (f(a) + f(b));
+            samples.push(Sample {
+                time_s: middle(|f| f.time) * time,
+                displacement_m: middle(|f| f.displacement) * radius,
+                centre_displacement_m: middle(|f| f.centre_displacement) * radius,
+                force_n: (b.impulse - a.impulse) / (b.time - a.time) * force,
+                contact_radius_m: b.contact_radius * radius,
+                kinetic_j: middle(|f| f.kinetic) * energy,
+                elastic_j: middle(|f| f.elastic) * energy,
+                plastic_j: middle(|f| f.plastic) * energy,
+            });
+        }
+        let incident = self.frames[0].kinetic;
+        let last = &self.frames[self.frames.len() - 1];
+        let least_height = 2.0 - self.largest(|f| 2.0 - f.height);
+        let summary = Summary {
+            velocity_m_s: velocity,
+            restitution: self.exit_speed / self.speed,
+            max_force_n: self.max_force() * force,
+            max_displacement_m: self.largest(|f| f.displacement) * radius,
+            max_centre_displacement_m: self.largest(|f| f.centre_displacement) * radius,
+            residual_displacement_m: self.at(self.contact_end, |f| f.displacement) * radius,
+            contact_time_s: self.contact_end * time,
+            compression_ratio: 1.0 - 0.5 * self.resting_height(),
+            height_at_max_compression_ratio: 0.5 * least_height,
+            equivalent_plastic_strain: self.plastic_strain,
+            plastic_work_ratio: last.plastic / incident,
+            energy_closure: self.closure,
+            points: self.points,
+            steps: self.steps,
+            wall_s,
+            status: self.status.clone(),
+        };
+        Impact {
+            summary,
+            curve: Curve { samples },
+        }
+    }
+}

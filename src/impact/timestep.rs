@@ -1,0 +1,90 @@
+//! Time step: the stability limit $2/\omega_{max}$ of the present state, by power iteration on $M^{-1} K$.
+//!
+//! The stiffness acts by finite difference of the elastic (frozen-state) internal force, so it is the tangent of the
+//! deformed body whatever the grid or material. Plastic flow only softens it.
+
+use crate::impact::kernel::{Points, Purpose};
+use crate::material::stress::Constitutive;
+use crate::space::Space;
+
+/// Share of the stability limit that is used: power iteration approaches the largest frequency from below.
+const SAFETY: f64 = 0.85;
+/// Size of the probing displacement (lengths are in particle radii).
+const PROBE: f64 = 1e-8;
+
+/// Estimator of the largest frequency, warm-started from its last answer.
+#[derive(Debug, Clone)]
+pub struct StabilityLimit<S: Space> {
+    mode: Vec<S::Vector>,
+    rest: Vec<S::Vector>,
+    moved: Vec<S::Vector>,
+    force: Vec<S::Vector>,
+}
+
+impl<S: Space> StabilityLimit<S> {
+    /// Estimator for `nodes` nodes; the start vector alternates in sign, near the highest mode.
+    pub fn new(nodes: usize) -> Self {
+        let mut mode = vec![S::Vector::default(); nodes];
+        for (n, m) in mode.iter_mut().enumerate() {
+            for (k, x) in m.as_mut().iter_mut().enumerate() {
+                // a fixed irregular pattern: no mode is orthogonal to it
+                *x = if (n * 7 + k * 3) % 5 < 2 { 1.0 } else { -1.0 };
+            }
+        }
+        StabilityLimit {
+            mode,
+            rest: vec![S::Vector::default(); nodes],
+            moved: vec![S::Vector::default(); nodes],
+            force: vec![S::Vector::default(); nodes],
+        }
+    }
+
+    /// Stable time step at displacements `u` after `iterations` power iterations.
+    pub fn estimate<M: Constitutive<S>, const N: usize>(
+        &mut self,
+        points: &mut Points<S, M, N>,
+        u: &[S::Vector],
+        recip_mass: &[S::Vector],
+        iterations: usize,
+    ) -> f64 {
+        points.sweep(Purpose::Trial, u, &mut self.rest);
+        let mut squared = 0.0f64;
+        for _ in 0..iterations {
+            let scale = 1.0 / largest_component(&self.mode);
+            for ((moved, mode), u) in self.moved.iter_mut().zip(&mut self.mode).zip(u) {
+                for (k, y) in moved.as_mut().iter_mut().enumerate() {
+                    mode.as_mut()[k] *= scale;
+                    *y = u.as_ref()[k] + PROBE * mode.as_ref()[k];
+                }
+            }
+            points.sweep(Purpose::Trial, &self.moved, &mut self.force);
+            squared = self.advance(recip_mass);
+        }
+        SAFETY * 2.0 / squared.sqrt()
+    }
+
+    /// `mode <- M^-1 K mode`; returns the growth of its length in the mass metric, an estimate of $\omega^2$.
+    fn advance(&mut self, recip_mass: &[S::Vector]) -> f64 {
+        let (mut new, mut old) = (0.0, 0.0);
+        for (n, mode) in self.mode.iter_mut().enumerate() {
+            for (k, x) in mode.as_mut().iter_mut().enumerate() {
+                let w = recip_mass[n].as_ref()[k];
+                let stiff = (self.rest[n].as_ref()[k] - self.force[n].as_ref()[k]) / PROBE;
+                if w > 0.0 {
+                    new += stiff * stiff * w;
+                    old += *x * *x / w;
+                }
+                *x = stiff * w;
+            }
+        }
+        (new / old).sqrt()
+    }
+}
+
+/// Largest absolute component of a field.
+fn largest_component<V: AsRef<[f64]>>(field: &[V]) -> f64 {
+    field
+        .iter()
+        .flat_map(|v| v.as_ref())
+        .fold(f64::MIN_POSITIVE, |a, x| a.max(x.abs()))
+}

@@ -1,0 +1,332 @@
+//! Law file: `law.toml`, read and checked.
+//!
+//! A law file that is published in `models/` needs what `impactlaw fit` writes: schema, material, constants of both
+//! forms with their intervals, errors at every speed and at left-out speeds, valid range, and the case it came from.
+//! The case file of that name belongs in `cases/`, so that anyone can make the law again.
+
+use super::FittedLaw;
+pub use super::table::*;
+use crate::contact::admissible::Inadmissible;
+use crate::contact::elastoplastic::{ClosedForm, Elastoplastic, Spline, YieldUnits};
+use crate::contact::loading::{Loading, SoftenedHertz};
+use crate::contact::spline::{Knot, SplineLoading};
+use crate::contact::unloading::Unloading;
+use crate::document::Document;
+use crate::material::{Flow, Material};
+use crate::theory::hertz::Hertz;
+use crate::{Error, Result};
+use serde::{Deserialize, Serialize};
+use std::path::Path;
+
+/// Schema of law files that this version reads and writes.
+pub const SCHEMA: i64 = 1;
+/// Relative difference allowed between the yield point in a file and that of its material.
+const YIELD_ROUNDING: f64 = 1e-9;
+
+/// Form of a fitted law.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Form {
+    /// Nothing yielded.
+    Hertz,
+    /// Few constants, for any code.
+    ClosedForm,
+    /// Knots.
+    Spline,
+}
+
+/// A law file. Numbers survive writing and reading bit by bit.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LawFile {
+    /// [`SCHEMA`].
+    pub schema: i64,
+    /// Name of the law.
+    pub name: String,
+    /// Form that is used unless another is asked for.
+    pub form: Form,
+    /// Material.
+    pub material: MaterialTable,
+    /// Units of the constants; absent for an elastic law.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub yield_point: Option<YieldTable>,
+    /// Range of the impacts.
+    pub valid: ValidTable,
+    /// Where the law comes from.
+    pub provenance: ProvenanceTable,
+    /// Hertz's law.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hertz: Option<HertzTable>,
+    /// Closed form.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub closed_form: Option<ClosedFormTable>,
+    /// Spline.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spline: Option<SplineTable>,
+}
+
+/// The schema alone, whatever else the file holds.
+#[derive(Deserialize)]
+struct Head {
+    schema: Option<i64>,
+}
+
+/// A constant that a law refuses, with its key in the file.
+struct Refusal(String, Inadmissible);
+
+impl LawFile {
+    /// Read and check a law file; every form it holds must be an admissible law.
+    ///
+    /// # Errors
+    /// [`Error::File`] when it cannot be read; otherwise as [`LawFile::parse`].
+    pub fn read(path: &Path) -> Result<Self> {
+        Self::parse(&Document::read(path)?)
+    }
+
+    /// Check the text of a law file.
+    ///
+    /// # Errors
+    /// [`Error::Value`] for another schema, a constant that is not admissible or a yield point that is not the
+    /// material's; [`Error::Syntax`] for an unknown or missing key.
+    pub fn parse(document: &Document) -> Result<Self> {
+        let head: Head = document.parse()?;
+        if head.schema != Some(SCHEMA) {
+            let allowed = format!(
+                "must be {SCHEMA}, the schema of law files of {}; fit the law again with this version",
+                crate::PROGRAM
+            );
+            return Err(document.reject("schema", allowed));
+        }
+        let file: LawFile = document.parse()?;
+        file.check_numbers(document)?;
+        for form in [Form::Hertz, Form::ClosedForm, Form::Spline] {
+            let absent = match form {
+                Form::Hertz => file.hertz.is_none(),
+                Form::ClosedForm => file.closed_form.is_none(),
+                Form::Spline => file.spline.is_none(),
+            };
+            if absent && form == file.form {
+                return Err(document.reject("form", "must be a form whose table the file holds"));
+            }
+            if !absent {
+                file.build(form).map_err(|Refusal(key, why)| {
+                    let field = why.key.rsplit('.').next().unwrap_or_default();
+                    document.reject(
+                        &key,
+                        format!("{field} (here {}) {}", why.found, why.allowed),
+                    )
+                })?;
+            }
+        }
+        Ok(file)
+    }
+
+    /// Material and range are finite and positive, and the yield point is that of the material.
+    fn check_numbers(&self, document: &Document) -> Result<()> {
+        let m = &self.material;
+        let positive = |x: f64| x > 0.0;
+        let must = "must be finite and positive";
+        document.check("material.density_kg_m3", m.density_kg_m3, positive, must)?;
+        document.check(
+            "material.young_modulus_Pa",
+            m.young_modulus_pa,
+            positive,
+            must,
+        )?;
+        let ratio = |x: f64| (0.0..0.5).contains(&x);
+        document.check(
+            "material.poisson_ratio",
+            m.poisson_ratio,
+            ratio,
+            "must lie in [0, 0.5)",
+        )?;
+        if let Some(y) = m.yield_strength_pa {
+            document.check("material.yield_strength_Pa", y, positive, must)?;
+        }
+        if let Some(h) = m.hardening_modulus_pa {
+            let must = "must be finite and not negative";
+            document.check("material.hardening_modulus_Pa", h, |x| x >= 0.0, must)?;
+        }
+        let v = &self.valid;
+        let key = "valid.displacement_over_radius_max";
+        document.check(key, v.displacement_over_radius_max, positive, must)?;
+        document.check("valid.velocity_min_m_s", v.velocity_min_m_s, positive, must)?;
+        let rises = |x: f64| x >= v.velocity_min_m_s;
+        document.check(
+            "valid.velocity_max_m_s",
+            v.velocity_max_m_s,
+            rises,
+            "must not be below velocity_min_m_s",
+        )?;
+        document.check(
+            "provenance.radius_m",
+            self.provenance.radius_m,
+            positive,
+            must,
+        )?;
+        self.check_yield_point(document)
+    }
+
+    fn check_yield_point(&self, document: &Document) -> Result<()> {
+        let yields = self.closed_form.is_some() || self.spline.is_some();
+        let Some(table) = &self.yield_point else {
+            return match yields {
+                true => {
+                    Err(document.reject("yield_point", "is needed: the constants are in its units"))
+                }
+                false => Ok(()),
+            };
+        };
+        let point = self.material().yield_point(1.0, table.pressure_ratio);
+        let point = point.ok_or_else(|| {
+            document.reject(
+                "material.yield_strength_Pa",
+                "is needed: the file has a yield point",
+            )
+        })?;
+        let near = |truth: f64| move |x: f64| (x / truth - 1.0).abs() < YIELD_ROUNDING;
+        document.check(
+            "yield_point.displacement_over_radius",
+            table.displacement_over_radius,
+            near(point.displacement),
+            "must be that of the material",
+        )?;
+        document.check(
+            "yield_point.force_over_radius2_Pa",
+            table.force_over_radius2_pa,
+            near(point.force),
+            "must be that of the material",
+        )?;
+        Ok(())
+    }
+
+    /// Material of the law.
+    #[must_use]
+    pub fn material(&self) -> Material {
+        let m = &self.material;
+        Material {
+            density: m.density_kg_m3,
+            young_modulus: m.young_modulus_pa,
+            poisson_ratio: m.poisson_ratio,
+            flow: m.yield_strength_pa.map(|yield_strength| Flow {
+                yield_strength,
+                hardening_modulus: m.hardening_modulus_pa.unwrap_or(0.0),
+            }),
+        }
+    }
+
+    /// The law in the form the file names.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] when the file lacks that form or its constants are not admissible; never for a
+    /// file that was read.
+    pub fn law(&self) -> Result<FittedLaw> {
+        self.law_in(self.form)
+    }
+
+    /// The law in the form asked for.
+    ///
+    /// # Errors
+    /// As [`LawFile::law`].
+    pub fn law_in(&self, form: Form) -> Result<FittedLaw> {
+        self.build(form)
+            .map_err(|Refusal(key, why)| Error::Argument {
+                argument: format!("{}: {key}", self.name),
+                found: why.found.to_string(),
+                allowed: why.allowed.to_owned(),
+            })
+    }
+
+    fn build(&self, form: Form) -> std::result::Result<FittedLaw, Refusal> {
+        match form {
+            Form::Hertz => Ok(FittedLaw::Hertz(Hertz::of(&self.material()))),
+            Form::ClosedForm => self.build_closed_form().map(FittedLaw::ClosedForm),
+            Form::Spline => self.build_spline().map(FittedLaw::Spline),
+        }
+    }
+
+    fn build_closed_form(&self) -> std::result::Result<ClosedForm, Refusal> {
+        let table = self
+            .closed_form
+            .as_ref()
+            .ok_or_else(|| absent("closed_form"))?;
+        let at = |key: &'static str| move |e: Inadmissible| Refusal(format!("{key}.{}", e.key), e);
+        let loading = SoftenedHertz::new(table.departure, table.breadth, table.softening)
+            .map_err(at("closed_form"))?;
+        let unloading = build_unloading(&table.unloading).map_err(at("closed_form.unloading"))?;
+        let law = self.assemble(loading, unloading);
+        let law = law.map_err(|e| Refusal("closed_form".to_owned(), e))?;
+        self.with_inertia(law, table.inertia)
+            .map_err(at("closed_form"))
+    }
+
+    fn build_spline(&self) -> std::result::Result<Spline, Refusal> {
+        let table = self.spline.as_ref().ok_or_else(|| absent("spline"))?;
+        let knots: Vec<Knot> = table
+            .knots
+            .iter()
+            .map(|&[flattening, force, slope]| Knot {
+                flattening,
+                force,
+                slope,
+            })
+            .collect();
+        let loading = SplineLoading::new(table.hertz_to, &knots).map_err(|e| {
+            let key = e.key.split("].").next().unwrap_or_default();
+            let bracket = if e.key.contains("].") { "]" } else { "" };
+            Refusal(format!("spline.{key}{bracket}"), e)
+        })?;
+        let unloading = build_unloading(&table.unloading)
+            .map_err(|e| Refusal(format!("spline.unloading.{}", e.key), e))?;
+        let law = self.assemble(loading, unloading);
+        let law = law.map_err(|e| Refusal("spline.knots".to_owned(), e))?;
+        self.with_inertia(law, table.inertia)
+            .map_err(|e| Refusal(format!("spline.{}", e.key), e))
+    }
+
+    fn with_inertia<L: Loading>(
+        &self,
+        law: Elastoplastic<L>,
+        coefficient: Option<f64>,
+    ) -> std::result::Result<Elastoplastic<L>, Inadmissible> {
+        match coefficient {
+            None => Ok(law),
+            Some(kappa) => law.with_inertia(kappa, self.material.density_kg_m3),
+        }
+    }
+
+    fn assemble<L: Loading>(
+        &self,
+        loading: L,
+        unloading: Unloading,
+    ) -> std::result::Result<Elastoplastic<L>, Inadmissible> {
+        let (flattening, force) = self.yield_point.as_ref().map_or((f64::NAN, f64::NAN), |y| {
+            (y.displacement_over_radius, y.force_over_radius2_pa)
+        });
+        let units = YieldUnits { flattening, force };
+        Elastoplastic::new(
+            loading,
+            unloading,
+            units,
+            self.valid.displacement_over_radius_max,
+        )
+    }
+}
+
+fn absent(key: &str) -> Refusal {
+    let why = Inadmissible {
+        key: key.to_owned(),
+        found: f64::NAN,
+        allowed: "is not in the file",
+    };
+    Refusal(key.to_owned(), why)
+}
+
+fn build_unloading(t: &UnloadingTable) -> std::result::Result<Unloading, Inadmissible> {
+    Unloading::new(
+        t.residual_scale,
+        t.residual_power,
+        t.exponent_residual,
+        t.exponent_strain,
+    )
+}

@@ -1,0 +1,103 @@
+//! Laws by name: the fitted law of a law file in one of its forms, or a theory, behind one visitor.
+
+pub mod file;
+mod table;
+mod write;
+
+pub use file::{Form, LawFile};
+
+use crate::contact::elastoplastic::{ClosedForm, Spline};
+use crate::contact::{LawVisitor, NormalLaw};
+use crate::material::Material;
+use crate::theory::Theory;
+use crate::theory::hertz::Hertz;
+use crate::{Error, Result};
+
+/// Law of a law file.
+#[derive(Debug, Clone, PartialEq)]
+pub enum FittedLaw {
+    /// Nothing yielded: Hertz.
+    Hertz(Hertz),
+    /// Closed form.
+    ClosedForm(ClosedForm),
+    /// Spline.
+    Spline(Spline),
+}
+
+impl FittedLaw {
+    /// Run `visitor` with the concrete law.
+    pub fn visit<V: LawVisitor>(&self, visitor: V) -> V::Output {
+        match self {
+            FittedLaw::Hertz(law) => visitor.visit(law),
+            FittedLaw::ClosedForm(law) => visitor.visit(law),
+            FittedLaw::Spline(law) => visitor.visit(law),
+        }
+    }
+
+    /// Force (N) on a body of `radius` at `displacement` (m) after a largest displacement of `most` before, without
+    /// inertia.
+    #[must_use]
+    pub fn force(&self, radius: f64, displacement: f64, most: f64) -> f64 {
+        self.visit(ForceAt {
+            radius,
+            displacement,
+            most,
+        })
+    }
+}
+
+/// Force at one displacement after a largest one.
+struct ForceAt {
+    radius: f64,
+    displacement: f64,
+    most: f64,
+}
+
+impl LawVisitor for ForceAt {
+    type Output = f64;
+
+    fn visit<L: NormalLaw>(self, law: &L) -> f64 {
+        let mut history = L::History::default();
+        law.force(self.most / self.radius, &mut history);
+        let reduced = law.force(self.displacement / self.radius, &mut history);
+        reduced * self.radius * self.radius
+    }
+}
+
+/// Any law a comparison or a bed can be told to use.
+#[derive(Debug, Clone, PartialEq)]
+pub enum AnyLaw {
+    /// From a law file.
+    Fitted(FittedLaw),
+    /// A theory for a material.
+    Theory(Theory, Material),
+}
+
+impl AnyLaw {
+    /// Run `visitor` with the concrete law.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] when a theory needs a yield strength and the material has none.
+    pub fn visit<V: LawVisitor>(&self, visitor: V) -> Result<V::Output> {
+        match self {
+            AnyLaw::Fitted(law) => Ok(law.visit(visitor)),
+            AnyLaw::Theory(theory, material) => theory.visit(material, visitor),
+        }
+    }
+
+    /// Law called `name`: `fitted` is that of `file`, any other name a theory of `material`.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for an unknown name, or `fitted` without a law file.
+    pub fn named(name: &str, file: Option<&LawFile>, material: &Material) -> Result<Self> {
+        if name != "fitted" {
+            return Ok(AnyLaw::Theory(name.parse()?, *material));
+        }
+        let file = file.ok_or_else(|| Error::Argument {
+            argument: "law".to_owned(),
+            found: "`fitted`".to_owned(),
+            allowed: "needs a law file, e.g. `--law law.toml`".to_owned(),
+        })?;
+        Ok(AnyLaw::Fitted(file.law()?))
+    }
+}

@@ -1,0 +1,41 @@
+//! `impactlaw` turns a particle's material into a contact law that discrete-element (DEM) codes can use.
+//!
+//! Data flow one way; every arrow is a file that a person can open, every stage can be rerun from its
+//! input file, and no room reads one to its right:
+//!
+//! ```text
+//! case.toml -> case -> plan -> impact -> curve.csv -> fit -> law.toml -+-> compare -> report
+//!                                                                      +-> bed
+//!                                                                      +-> export
+//! ```
+//!
+//! Units are SI everywhere in memory; files carry their units in keys and headers.
+#![warn(missing_docs)]
+#![cfg_attr(not(test), deny(clippy::unwrap_used))]
+
+pub mod bed;
+pub mod case;
+pub mod cli;
+pub mod command;
+pub mod compare;
+pub mod contact;
+pub mod curve;
+pub mod document;
+pub mod error;
+pub mod files;
+pub mod fit;
+pub mod impact;
+pub mod lanes;
+pub mod law;
+pub mod material;
+pub mod plan;
+pub mod report;
+pub mod space;
+pub mod study;
+pub mod theory;
+pub mod unit;
+
+pub use error::{Error, Result};
+
+/// Program name and version, for provenance.
+pub const PROGRAM: &str = concat!("impactlaw ", env!("CARGO_PKG_VERSION"));

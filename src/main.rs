@@ -1,0 +1,64 @@
+//! Program entry: parse, dispatch, print the error, exit code (0 ok, 1 a result fails a stated threshold, 2 could not run).
+
+use clap::Parser;
+use impactlaw::cli::{Cli, Verb};
+use impactlaw::command::{self, Context, Verdict, diagnostic};
+use impactlaw::{Error, Result};
+use std::process::ExitCode;
+use tracing::Level;
+
+fn main() -> ExitCode {
+    let cli = Cli::parse();
+    trace(&cli);
+    match start_threads(cli.threads).and_then(|()| dispatch(&cli)) {
+        Ok(Verdict::Met) => ExitCode::SUCCESS,
+        Ok(Verdict::Missed) => ExitCode::from(1),
+        Err(error) => {
+            eprint!("{}", diagnostic::text(&error));
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn dispatch(cli: &Cli) -> Result<Verdict> {
+    let context = &Context::of_process(cli.quiet);
+    match &cli.verb {
+        Verb::Run(args) => command::run::run(args, context),
+        Verb::Plan(args) => command::plan::run(args, context),
+        Verb::Impact(args) => command::impact::run(args, context),
+        Verb::Fit(args) => command::fit::run(args, context),
+        Verb::Compare(args) => command::compare::run(args, context).map(Verdict::from),
+        Verb::Theory(args) => command::theory::run(args).map(Verdict::from),
+        Verb::Bed(args) => command::bed::run(args, context),
+        Verb::Study(args) => command::study::run(args, context),
+        Verb::Law { verb } => command::law::run(verb, context),
+    }
+}
+
+/// Worker threads; 0 is one a core.
+fn start_threads(threads: usize) -> Result<()> {
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build_global()
+        .map_err(|error| Error::Argument {
+            argument: "--threads".to_owned(),
+            found: format!("{threads} ({error})"),
+            allowed: "must be a number of threads the system can start".to_owned(),
+        })
+}
+
+/// What is said on stderr besides progress: warnings, with -v what stages do, with -vv solver detail.
+fn trace(cli: &Cli) {
+    let level = match (cli.quiet, cli.verbose) {
+        (true, _) => Level::ERROR,
+        (_, 0) => Level::WARN,
+        (_, 1) => Level::INFO,
+        _ => Level::DEBUG,
+    };
+    tracing_subscriber::fmt()
+        .with_max_level(level)
+        .with_writer(std::io::stderr)
+        .with_target(false)
+        .without_time()
+        .init();
+}

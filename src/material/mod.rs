@@ -1,0 +1,76 @@
+//! Material of a particle: elastic constants, flow stress, and the yield quantities that follow from them.
+
+pub mod flow;
+pub mod stress;
+
+use std::f64::consts::PI;
+
+/// Peak Hertz pressure at first yield over the yield strength (Johnson 1985, section 6.3).
+pub const YIELD_PRESSURE_RATIO: f64 = 1.6;
+
+/// Flow stress of a J2 material: $\sigma_y(\varepsilon_p) = Y + H \varepsilon_p$.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Flow {
+    /// Initial yield strength Y, Pa.
+    pub yield_strength: f64,
+    /// Linear hardening modulus H, Pa (0: perfectly plastic).
+    pub hardening_modulus: f64,
+}
+
+/// Material of a particle, SI units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Material {
+    /// Density rho, kg/m3.
+    pub density: f64,
+    /// Young's modulus E, Pa.
+    pub young_modulus: f64,
+    /// Poisson's ratio nu, in [0, 0.5).
+    pub poisson_ratio: f64,
+    /// Flow stress; `None` for an elastic body.
+    pub flow: Option<Flow>,
+}
+
+/// Onset of yield of a sphere on a rigid flat (theory of Hertz, peak pressure `1.6 Y`).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct YieldPoint {
+    /// Flattening delta_y, m.
+    pub displacement: f64,
+    /// Force F_y, N.
+    pub force: f64,
+    /// Impact speed V_y below which the sphere stays elastic, m/s.
+    pub velocity: f64,
+}
+
+impl Material {
+    /// Contact modulus on a rigid flat, $E^* = E/(1-\nu^2)$, Pa.
+    #[must_use]
+    pub fn contact_modulus(&self) -> f64 {
+        self.young_modulus / (1.0 - self.poisson_ratio * self.poisson_ratio)
+    }
+
+    /// Mass of a sphere, kg.
+    #[must_use]
+    pub fn sphere_mass(&self, radius: f64) -> f64 {
+        4.0 / 3.0 * PI * radius.powi(3) * self.density
+    }
+
+    /// Yield point of a sphere of `radius` for a peak pressure $p_0 = c Y$ at first yield.
+    ///
+    /// $$ \delta_y = \left(\frac{\pi p_0}{2 E^*}\right)^2 R, \quad F_y = \frac{\pi^3 p_0^3 R^2}{6 E^{*2}}, \quad
+    ///    \tfrac12 m V_y^2 = \tfrac25 F_y \delta_y $$
+    ///
+    /// `None` for an elastic body. Source: Johnson 1985, section 6.3; thesis (4-10), (4-11).
+    #[must_use]
+    pub fn yield_point(&self, radius: f64, pressure_ratio: f64) -> Option<YieldPoint> {
+        let p_0 = pressure_ratio * self.flow?.yield_strength;
+        let e_star = self.contact_modulus();
+        let delta_y = (PI * p_0 / (2.0 * e_star)).powi(2) * radius;
+        let f_y = PI.powi(3) * p_0.powi(3) * radius * radius / (6.0 * e_star * e_star);
+        let v_y = (0.8 * f_y * delta_y / self.sphere_mass(radius)).sqrt();
+        Some(YieldPoint {
+            displacement: delta_y,
+            force: f_y,
+            velocity: v_y,
+        })
+    }
+}

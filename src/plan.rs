@@ -1,0 +1,275 @@
+//! Plan of an impact: dimension, effects, grid, degree and duration, chosen from the case and its tolerance, with reasons.
+//!
+//! Lengths in a plan are in particle radii, times in R/c0 with $c_0 = \sqrt{E/\rho}$: for a rate-independent material
+//! the whole run depends on (E/Y, rho V^2/E, nu) alone.
+
+use crate::case::Case;
+use crate::material::{Material, YIELD_PRESSURE_RATIO};
+use crate::unit::{engineering, significant};
+use std::f64::consts::PI;
+
+/// Background grid of the axisymmetric section, lengths in R.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Grid {
+    /// Degree of the B-splines, 1 to 3.
+    pub degree: usize,
+    /// Gauss points a direction in every smooth piece of a cell.
+    pub points_per_direction: usize,
+    /// Cell size at the contact pole.
+    pub fine: f64,
+    /// Distance from the axis up to which cells stay fine.
+    pub fine_width: f64,
+    /// Height above the pole up to which cells stay fine.
+    pub fine_depth: f64,
+    /// Growth from cell to cell beyond.
+    pub growth: f64,
+    /// Largest cell.
+    pub coarse: f64,
+    /// Share of the stable time step that is used, at most 1 (smaller to show that dt does not matter).
+    pub dt_share: f64,
+}
+
+/// Whether an effect is simulated, and why.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Effect {
+    /// Name, e.g. `plasticity`.
+    pub name: &'static str,
+    /// On or off.
+    pub on: bool,
+    /// Why.
+    pub reason: String,
+}
+
+/// What is expected of an impact before it is run; lengths in R, times in R/c0.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Estimate {
+    /// Largest displacement.
+    pub displacement: f64,
+    /// Contact radius at largest displacement.
+    pub contact_radius: f64,
+    /// Contact time.
+    pub contact_time: f64,
+}
+
+/// Plan of one impact.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plan {
+    /// Impact speed, m/s.
+    pub velocity: f64,
+    /// Expected size of the impact.
+    pub estimate: Estimate,
+    /// Effects, on or off, with reasons.
+    pub effects: Vec<Effect>,
+    /// Whether the body yields in this run.
+    pub plastic: bool,
+    /// Grid.
+    pub grid: Grid,
+    /// Time after loss of contact over which the residual vibration is averaged, R/c0.
+    pub ring_time: f64,
+    /// Time at which an impact without rebound is given up, R/c0.
+    pub longest_time: f64,
+    /// Predicted material points.
+    pub points: usize,
+    /// Predicted steps.
+    pub steps: u64,
+    /// Predicted seconds on one core.
+    pub seconds: f64,
+}
+
+/// Point-steps a second and core that predictions assume (axisymmetric quadratic J2, measured; see benches/).
+const THROUGHPUT: f64 = 1.5e7;
+
+/// Mean contact pressure over yield strength when fully plastic, used for estimates only (Tabor).
+const PLASTIC_PRESSURE_RATIO: f64 = 2.8;
+
+/// Size of an impact from the elastic (Hertz) and the fully plastic limit.
+///
+/// $$ \delta_e = \left(\tfrac{15 m V^2}{16 E^* \sqrt{R}}\right)^{2/5}, \quad
+///    \delta_p = V \sqrt{\tfrac{m}{2 \pi R\, 2.8 Y}}, \quad \delta = (\delta_e^3 + \delta_p^3)^{1/3} $$
+///
+/// An estimate for laying a grid, within some 20 % of the simulated displacement; nothing else depends on it.
+#[must_use]
+pub fn estimate(material: &Material, velocity: f64) -> Estimate {
+    let e = material.young_modulus;
+    let e_star = material.contact_modulus() / e;
+    let speed = velocity / (e / material.density).sqrt();
+    let mass = 4.0 / 3.0 * PI;
+    let elastic = (15.0 * mass * speed * speed / (16.0 * e_star)).powf(0.4);
+    let plastic = material.flow.map_or(0.0, |flow| {
+        speed * (mass / (2.0 * PI * PLASTIC_PRESSURE_RATIO * flow.yield_strength / e)).sqrt()
+    });
+    let sum = elastic.powi(3) + plastic.powi(3);
+    let displacement = sum.cbrt();
+    let plastic_share = plastic.powi(3) / sum;
+    Estimate {
+        displacement,
+        contact_radius: (displacement * (1.0 + plastic_share)).sqrt().min(1.0),
+        contact_time: (2.94 - 0.64 * plastic_share) * displacement / speed,
+    }
+}
+
+/// Plan one impact of a case.
+#[must_use]
+pub fn plan(case: &Case, velocity: f64) -> Plan {
+    let material = &case.material;
+    let estimate = estimate(material, velocity);
+    let (effects, plastic) = effects(case, velocity);
+    let grid = grid(&estimate, case.tolerance);
+    let ring_time = 1.5 * fundamental_period(material.poisson_ratio);
+    let (points, steps) = predict(&grid, material, &estimate, ring_time);
+    Plan {
+        velocity,
+        estimate,
+        effects,
+        plastic,
+        grid,
+        ring_time,
+        longest_time: 6.0 * estimate.contact_time + 4.0 * ring_time,
+        points,
+        steps,
+        seconds: points as f64 * steps as f64 / THROUGHPUT,
+    }
+}
+
+/// Cells per contact radius for a relative tolerance on F*, delta* and e: errors fall with the square of the cell size.
+fn cells_per_radius(tolerance: f64) -> f64 {
+    (20.0 * (0.02 / tolerance).sqrt()).clamp(8.0, 60.0)
+}
+
+/// Grid for an expected impact.
+fn grid(estimate: &Estimate, tolerance: f64) -> Grid {
+    let a = estimate.contact_radius;
+    Grid {
+        degree: 2,
+        points_per_direction: 2,
+        fine: a / cells_per_radius(tolerance),
+        fine_width: 1.2 * a,
+        fine_depth: 0.6 * a,
+        growth: 1.15,
+        coarse: 0.1,
+        dt_share: 1.0,
+    }
+}
+
+/// Which effects the scene calls for.
+fn effects(case: &Case, velocity: f64) -> (Vec<Effect>, bool) {
+    let yield_point = case.material.yield_point(case.radius, YIELD_PRESSURE_RATIO);
+    let (plastic, why) = match yield_point {
+        None => (false, "the material has no yield strength".to_owned()),
+        Some(y) if velocity <= y.velocity => (
+            false,
+            format!("V <= V_y = {}", engineering(y.velocity, "m/s", 3)),
+        ),
+        Some(y) => (
+            true,
+            format!(
+                "V is {} times V_y = {}",
+                significant(velocity / y.velocity, 3),
+                engineering(y.velocity, "m/s", 3)
+            ),
+        ),
+    };
+    let hardening = case.material.flow.map_or(0.0, |f| f.hardening_modulus);
+    let list = vec![
+        Effect {
+            name: "three dimensions",
+            on: false,
+            reason: "a normal impact on a plane is axisymmetric".to_owned(),
+        },
+        Effect {
+            name: "friction",
+            on: false,
+            reason: "the wall is frictionless".to_owned(),
+        },
+        Effect {
+            name: "plasticity",
+            on: plastic,
+            reason: why,
+        },
+        Effect {
+            name: "hardening",
+            on: plastic && hardening > 0.0,
+            reason: if hardening > 0.0 {
+                format!("H = {hardening:.4e} Pa")
+            } else {
+                "no hardening modulus given".to_owned()
+            },
+        },
+        Effect {
+            name: "gravity",
+            on: false,
+            reason: "the impact is over long before gravity moves the particle".to_owned(),
+        },
+    ];
+    (list, plastic)
+}
+
+/// Period of the fundamental (oblate-prolate, l = 2) vibration of a sphere, R/c0.
+///
+/// $T = 2\pi R / (2.64\, c_s)$; the factor varies by 2 % over nu = 0..0.5 (Lamb 1882).
+#[must_use]
+pub fn fundamental_period(poisson_ratio: f64) -> f64 {
+    2.0 * PI / 2.64 * (2.0 * (1.0 + poisson_ratio)).sqrt()
+}
+
+/// Points and steps of a run, from the grid alone.
+fn predict(grid: &Grid, material: &Material, estimate: &Estimate, ring: f64) -> (usize, u64) {
+    let count =
+        |length: f64, to: f64| graded(length, grid.fine, to, grid.growth, grid.coarse).len();
+    let cells = count(1.0, grid.fine_width) * count(2.0, grid.fine_depth);
+    let per_cell = grid.points_per_direction.pow(2) as f64;
+    let points = 0.8 * cells as f64 * per_cell;
+    let nu = material.poisson_ratio;
+    let speed = ((1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu))).sqrt();
+    let dt = 0.65 * grid.dt_share * grid.fine / speed;
+    (
+        points as usize,
+        ((estimate.contact_time + ring) / dt) as u64,
+    )
+}
+
+/// Breakpoints of a direction: uniform cells of size `fine` over `[0, fine_to]`, then each at most `growth` times the
+/// one before, none larger than `coarse`, ending exactly at `length`.
+///
+/// The graded part is rescaled to end at `length`; cells therefore differ from `fine` by less than one cell's share.
+#[must_use]
+pub fn graded(length: f64, fine: f64, fine_to: f64, growth: f64, coarse: f64) -> Vec<f64> {
+    let n_fine = (fine_to.min(length) / fine).ceil().max(1.0) as usize;
+    let mut sizes = vec![1.0; n_fine];
+    let mut total = n_fine as f64;
+    let mut size = 1.0f64;
+    while total * fine < length {
+        size = (size * growth).min((coarse / fine).max(1.0));
+        sizes.push(size);
+        total += size;
+    }
+    let scale = length / total;
+    let mut x = 0.0;
+    let mut breaks = vec![0.0];
+    for s in &sizes {
+        x += s * scale;
+        breaks.push(x);
+    }
+    if let Some(last) = breaks.last_mut() {
+        *last = length;
+    }
+    breaks
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn grading_respects_growth_and_ends() {
+        let b = graded(2.0, 0.01, 0.1, 1.2, 0.1);
+        assert_eq!(b[b.len() - 1], 2.0);
+        let sizes: Vec<f64> = b.windows(2).map(|w| w[1] - w[0]).collect();
+        assert!(
+            sizes
+                .windows(2)
+                .all(|s| s[1] <= 1.2001 * s[0] && s[1] > 0.99 * s[0])
+        );
+        assert!(sizes[0] <= 0.01 && sizes[0] > 0.008);
+    }
+}

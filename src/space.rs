@@ -1,0 +1,215 @@
+//! Space: what a run's kernel is generic over, from the components of a node to the tensors of a point.
+//!
+//! [`Axisymmetric`] carries (r, z) and the hoop stretch; a three-dimensional space is one more implementation. All
+//! tensors hold [`Lanes`]: four material points side by side.
+
+use crate::lanes::Lanes;
+
+/// Symmetric tensor of a space.
+pub trait Symmetric: Copy + Send + Sync + 'static {
+    /// Unit tensor.
+    fn identity() -> Self;
+    /// Trace.
+    fn trace(&self) -> Lanes;
+    /// `self + s 1`.
+    #[must_use]
+    fn shifted(&self, s: Lanes) -> Self;
+    /// `s self`.
+    #[must_use]
+    fn scaled(&self, s: Lanes) -> Self;
+    /// `self : self`.
+    fn squared_norm(&self) -> Lanes;
+    /// Determinant.
+    fn determinant(&self) -> Lanes;
+    /// `self` where `test > 0`, else `other`.
+    #[must_use]
+    fn where_positive(&self, test: Lanes, other: &Self) -> Self;
+}
+
+/// A space a run can live in.
+pub trait Space: Copy + Send + Sync + 'static {
+    /// Vector of a node (displacement, velocity, force).
+    type Vector: Copy + Default + Send + Sync + std::fmt::Debug + AsRef<[f64]> + AsMut<[f64]>;
+    /// Deformation gradient, or first Piola-Kirchhoff stress.
+    type Gradient: Copy + Send + Sync;
+    /// Stress-like tensor.
+    type Symmetric: Symmetric;
+    /// Component of a vector that is normal to the wall.
+    const NORMAL: usize;
+
+    /// Unit deformation gradient.
+    fn identity() -> Self::Gradient;
+    /// `gradient += u (x) grad N` for one node with weights `w`.
+    fn add_node(gradient: &mut Self::Gradient, u: &Self::Vector, w: &[Lanes; 3]);
+    /// `force += P grad N` lane by lane, for one node with weights `w`.
+    fn add_force(force: &mut [Lanes; 3], p: &Self::Gradient, w: &[Lanes; 3]);
+    /// Determinant J.
+    fn determinant(f: &Self::Gradient) -> Lanes;
+    /// $F C F^T$.
+    fn push_forward(f: &Self::Gradient, c: &Self::Symmetric) -> Self::Symmetric;
+    /// $F^{-1} b F^{-T}$, with `1/J` given.
+    fn pull_back(f: &Self::Gradient, recip_j: Lanes, b: &Self::Symmetric) -> Self::Symmetric;
+    /// First Piola-Kirchhoff stress $\tau F^{-T}$ times `volume`, with `1/J` given.
+    fn first_piola(
+        tau: &Self::Symmetric,
+        f: &Self::Gradient,
+        recip_j: Lanes,
+        volume: Lanes,
+    ) -> Self::Gradient;
+}
+
+/// Axisymmetry about the impact axis: components (r, z); weights of a node are $N_{,r}$, $N_{,z}$, $N/r$.
+#[derive(Debug, Clone, Copy)]
+pub struct Axisymmetric;
+
+/// Symmetric tensor with the components rr, zz, hoop, rz.
+#[derive(Debug, Clone, Copy)]
+pub struct AxialSymmetric {
+    rr: Lanes,
+    zz: Lanes,
+    hoop: Lanes,
+    rz: Lanes,
+}
+
+/// Gradient with the components rr, rz, zr, zz, hoop.
+#[derive(Debug, Clone, Copy)]
+pub struct AxialGradient {
+    rr: Lanes,
+    rz: Lanes,
+    zr: Lanes,
+    zz: Lanes,
+    hoop: Lanes,
+}
+
+impl Symmetric for AxialSymmetric {
+    #[inline(always)]
+    fn identity() -> Self {
+        let one = Lanes::splat(1.0);
+        AxialSymmetric {
+            rr: one,
+            zz: one,
+            hoop: one,
+            rz: Lanes::default(),
+        }
+    }
+    #[inline(always)]
+    fn trace(&self) -> Lanes {
+        self.rr + self.zz + self.hoop
+    }
+    #[inline(always)]
+    fn shifted(&self, s: Lanes) -> Self {
+        AxialSymmetric {
+            rr: self.rr + s,
+            zz: self.zz + s,
+            hoop: self.hoop + s,
+            rz: self.rz,
+        }
+    }
+    #[inline(always)]
+    fn scaled(&self, s: Lanes) -> Self {
+        AxialSymmetric {
+            rr: self.rr * s,
+            zz: self.zz * s,
+            hoop: self.hoop * s,
+            rz: self.rz * s,
+        }
+    }
+    #[inline(always)]
+    fn squared_norm(&self) -> Lanes {
+        self.rr * self.rr + self.zz * self.zz + self.hoop * self.hoop + self.rz * self.rz * 2.0
+    }
+    #[inline(always)]
+    fn determinant(&self) -> Lanes {
+        (self.rr * self.zz - self.rz * self.rz) * self.hoop
+    }
+    #[inline(always)]
+    fn where_positive(&self, test: Lanes, other: &Self) -> Self {
+        AxialSymmetric {
+            rr: self.rr.where_positive(test, other.rr),
+            zz: self.zz.where_positive(test, other.zz),
+            hoop: self.hoop.where_positive(test, other.hoop),
+            rz: self.rz.where_positive(test, other.rz),
+        }
+    }
+}
+
+impl Space for Axisymmetric {
+    type Vector = [f64; 2];
+    type Gradient = AxialGradient;
+    type Symmetric = AxialSymmetric;
+    const NORMAL: usize = 1;
+
+    #[inline(always)]
+    fn identity() -> AxialGradient {
+        let (one, zero) = (Lanes::splat(1.0), Lanes::default());
+        AxialGradient {
+            rr: one,
+            rz: zero,
+            zr: zero,
+            zz: one,
+            hoop: one,
+        }
+    }
+    #[inline(always)]
+    fn add_node(g: &mut AxialGradient, u: &[f64; 2], w: &[Lanes; 3]) {
+        let (ur, uz) = (Lanes::splat(u[0]), Lanes::splat(u[1]));
+        g.rr += ur * w[0];
+        g.rz += ur * w[1];
+        g.zr += uz * w[0];
+        g.zz += uz * w[1];
+        g.hoop += ur * w[2];
+    }
+    #[inline(always)]
+    fn add_force(force: &mut [Lanes; 3], p: &AxialGradient, w: &[Lanes; 3]) {
+        force[0] += p.rr * w[0] + p.rz * w[1] + p.hoop * w[2];
+        force[1] += p.zr * w[0] + p.zz * w[1];
+    }
+    #[inline(always)]
+    fn determinant(f: &AxialGradient) -> Lanes {
+        (f.rr * f.zz - f.rz * f.zr) * f.hoop
+    }
+    #[inline(always)]
+    fn push_forward(f: &AxialGradient, c: &AxialSymmetric) -> AxialSymmetric {
+        let ar = f.rr * c.rr + f.rz * c.rz;
+        let az = f.rr * c.rz + f.rz * c.zz;
+        let br = f.zr * c.rr + f.zz * c.rz;
+        let bz = f.zr * c.rz + f.zz * c.zz;
+        AxialSymmetric {
+            rr: ar * f.rr + az * f.rz,
+            zz: br * f.zr + bz * f.zz,
+            hoop: f.hoop * f.hoop * c.hoop,
+            rz: ar * f.zr + az * f.zz,
+        }
+    }
+    #[inline(always)]
+    fn pull_back(f: &AxialGradient, recip_j: Lanes, b: &AxialSymmetric) -> AxialSymmetric {
+        let scale = recip_j * f.hoop;
+        let recip_hoop = recip_j * (f.rr * f.zz - f.rz * f.zr);
+        let zero = Lanes::default();
+        let inverse = AxialGradient {
+            rr: f.zz * scale,
+            rz: zero - f.rz * scale,
+            zr: zero - f.zr * scale,
+            zz: f.rr * scale,
+            hoop: recip_hoop,
+        };
+        Self::push_forward(&inverse, b)
+    }
+    #[inline(always)]
+    fn first_piola(
+        tau: &AxialSymmetric,
+        f: &AxialGradient,
+        recip_j: Lanes,
+        volume: Lanes,
+    ) -> AxialGradient {
+        let scale = recip_j * f.hoop * volume;
+        let recip_hoop = recip_j * (f.rr * f.zz - f.rz * f.zr) * volume;
+        AxialGradient {
+            rr: (tau.rr * f.zz - tau.rz * f.rz) * scale,
+            rz: (tau.rz * f.rr - tau.rr * f.zr) * scale,
+            zr: (tau.rz * f.zz - tau.zz * f.rz) * scale,
+            zz: (tau.zz * f.rr - tau.rz * f.zr) * scale,
+            hoop: tau.hoop * recip_hoop,
+        }
+    }
+}

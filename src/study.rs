@@ -1,0 +1,246 @@
+//! Study: a grid of cases, and which of them are the same run in dimensionless terms.
+
+use crate::Result;
+use crate::case::Case;
+use crate::curve::Summary;
+use crate::document::Document;
+use crate::material::{Flow, Material};
+use crate::unit::{Density, Length, Pressure, Quantity, Velocity};
+use serde::Deserialize;
+use std::path::Path;
+
+/// A grid of cases, each with one speed, in the order of the file: radius, density, modulus, ratio E/Y, Poisson's ratio,
+/// speed (the last one fastest).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Study {
+    /// Name: the file's stem.
+    pub name: String,
+    /// SHA-256 of the file's text.
+    pub hash: String,
+    /// The cases.
+    pub cases: Vec<Case>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct StudyFile {
+    particle: ParticleTable,
+    material: MaterialTable,
+    impact: ImpactTable,
+    accuracy: AccuracyTable,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ParticleTable {
+    radius: Vec<Quantity<Length>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct MaterialTable {
+    density: Vec<Quantity<Density>>,
+    young_modulus: Vec<Quantity<Pressure>>,
+    young_over_yield: Vec<f64>,
+    poisson_ratio: Vec<f64>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ImpactTable {
+    velocities: Vec<Quantity<Velocity>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct AccuracyTable {
+    tolerance: f64,
+}
+
+impl Study {
+    /// Read and check a study file.
+    ///
+    /// # Errors
+    /// As [`Case::read`], for every entry of every list.
+    pub fn read(path: &Path) -> Result<Self> {
+        Self::from_document(&Document::read(path)?)
+    }
+
+    /// Check a study file that has been read already.
+    ///
+    /// # Errors
+    /// As [`Study::read`].
+    pub fn from_document(document: &Document) -> Result<Self> {
+        let file: StudyFile = document.parse()?;
+        let m = &file.material;
+        let radii = positive(document, "particle.radius", &file.particle.radius)?;
+        let densities = positive(document, "material.density", &m.density)?;
+        let moduli = positive(document, "material.young_modulus", &m.young_modulus)?;
+        let velocities = positive(document, "impact.velocities", &file.impact.velocities)?;
+        let ratios = within(
+            document,
+            "material.young_over_yield",
+            &m.young_over_yield,
+            |x| x > 1.0,
+            "must be above 1",
+        )?;
+        let poissons = within(
+            document,
+            "material.poisson_ratio",
+            &m.poisson_ratio,
+            |x| (0.0..0.5).contains(&x),
+            "must lie in [0, 0.5)",
+        )?;
+        let tolerance = document.check(
+            "accuracy.tolerance",
+            file.accuracy.tolerance,
+            |tolerance| tolerance > 0.0 && tolerance <= 0.2,
+            "must lie in (0, 0.2], e.g. 0.02 for two per cent",
+        )?;
+        let case = |radius: f64, material: Material, velocity: f64| Case {
+            name: document.name(),
+            path: document.path().to_owned(),
+            hash: document.hash(),
+            radius,
+            material,
+            velocities: vec![velocity],
+            tolerance,
+            bed: None,
+        };
+        let mut cases = Vec::new();
+        for &radius in &radii {
+            for &density in &densities {
+                for &young_modulus in &moduli {
+                    for &ratio in &ratios {
+                        for &poisson_ratio in &poissons {
+                            let flow = Some(Flow {
+                                yield_strength: young_modulus / ratio,
+                                hardening_modulus: 0.0,
+                            });
+                            let material = Material {
+                                density,
+                                young_modulus,
+                                poisson_ratio,
+                                flow,
+                            };
+                            cases.extend(velocities.iter().map(|v| case(radius, material, *v)));
+                        }
+                    }
+                }
+            }
+        }
+        Ok(Study {
+            name: document.name(),
+            hash: document.hash(),
+            cases,
+        })
+    }
+}
+
+/// All entries of a list, which must be there and positive.
+fn positive<D: Copy>(document: &Document, key: &str, list: &[Quantity<D>]) -> Result<Vec<f64>> {
+    if list.is_empty() {
+        return Err(document.reject(key, "must hold at least one value"));
+    }
+    let entry = |(i, q): (usize, &Quantity<D>)| document.positive(&format!("{key}[{i}]"), *q);
+    list.iter().enumerate().map(entry).collect()
+}
+
+/// All entries of a list of pure numbers, each of which must be allowed.
+fn within(
+    document: &Document,
+    key: &str,
+    list: &[f64],
+    allowed: fn(f64) -> bool,
+    rule: &str,
+) -> Result<Vec<f64>> {
+    if list.is_empty() {
+        return Err(document.reject(key, "must hold at least one value"));
+    }
+    let entry = |(i, x): (usize, &f64)| document.check(&format!("{key}[{i}]"), *x, allowed, rule);
+    list.iter().enumerate().map(entry).collect()
+}
+
+/// Name of the run a case stands for: E/Y, rho V^2/E, nu and the tolerance, to nine digits.
+///
+/// Two cases with equal groups are the same run, scaled.
+#[must_use]
+pub fn group(case: &Case) -> String {
+    let m = &case.material;
+    let ratio = m.flow.map_or(0.0, |f| m.young_modulus / f.yield_strength);
+    let speed = case
+        .velocities
+        .first()
+        .map_or(0.0, |v| m.density * v * v / m.young_modulus);
+    format!(
+        "EY{ratio:.8e}_rhoV2E{speed:.8e}_nu{}_tol{}",
+        m.poisson_ratio, case.tolerance
+    )
+}
+
+/// Figures of one run seen as another case of the same group: lengths scale with R, forces with E R^2, times with R/c0.
+#[must_use]
+pub fn scaled(summary: &Summary, from: &Case, to: &Case) -> Summary {
+    let length = to.radius / from.radius;
+    let force = to.material.young_modulus / from.material.young_modulus * length * length;
+    let speed = |c: &Case| (c.material.young_modulus / c.material.density).sqrt();
+    let time = length * speed(from) / speed(to);
+    Summary {
+        velocity_m_s: to
+            .velocities
+            .first()
+            .copied()
+            .unwrap_or(summary.velocity_m_s),
+        max_force_n: summary.max_force_n * force,
+        max_displacement_m: summary.max_displacement_m * length,
+        max_centre_displacement_m: summary.max_centre_displacement_m * length,
+        residual_displacement_m: summary.residual_displacement_m * length,
+        contact_time_s: summary.contact_time_s * time,
+        ..summary.clone()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TEXT: &str = r#"
+[particle]
+radius = ["250 um"]
+[material]
+density = ["1000 kg/m3", "4000 kg/m3"]
+young_modulus = ["1 GPa", "10 GPa"]
+young_over_yield = [20, 40]
+poisson_ratio = [0.35]
+[impact]
+velocities = ["10 m/s", "20 m/s"]
+[accuracy]
+tolerance = 0.02
+"#;
+
+    #[test]
+    fn every_combination_is_a_case_with_the_speed_running_fastest() {
+        let study = Study::from_document(&Document::new(Path::new("s.toml"), TEXT)).unwrap();
+        assert_eq!(study.cases.len(), 16);
+        assert_eq!(study.cases[0].velocities, [10.0]);
+        assert_eq!(study.cases[1].velocities, [20.0]);
+        assert_eq!(study.cases[1].material, study.cases[0].material);
+    }
+
+    #[test]
+    fn equal_groups_are_found_across_density_and_speed() {
+        let study = Study::from_document(&Document::new(Path::new("s.toml"), TEXT)).unwrap();
+        // 1000 kg/m3 at 20 m/s is 4000 kg/m3 at 10 m/s
+        let (a, b) = (&study.cases[1], &study.cases[8]);
+        assert_eq!((a.material.density, b.material.density), (1000.0, 4000.0));
+        assert_eq!(group(a), group(b));
+        assert_ne!(group(a), group(&study.cases[0]));
+    }
+
+    #[test]
+    fn bad_entries_are_refused_with_their_place() {
+        let text = TEXT.replace("[20, 40]", "[20, 0.5]");
+        let error = Study::from_document(&Document::new(Path::new("s.toml"), text)).unwrap_err();
+        assert!(error.to_string().contains("young_over_yield[1]"), "{error}");
+    }
+}

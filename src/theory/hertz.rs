@@ -1,0 +1,84 @@
+//! Hertz: the elastic sphere on a rigid plane.
+
+use crate::contact::NormalLaw;
+use crate::material::Material;
+
+/// Elastic contact of a sphere with a rigid frictionless plane.
+///
+/// $$ F = \tfrac43 E^* \sqrt{R} \, \delta^{3/2}, \qquad a^2 = R \delta $$
+///
+/// | symbol | unit | meaning |
+/// |---|---|---|
+/// | E* | Pa | contact modulus, $E/(1-\nu^2)$ |
+/// | R | m | radius |
+/// | delta | m | approach of the centre |
+/// | a | m | contact radius |
+///
+/// Source: Hertz 1882; Johnson 1985, section 4.2. Valid for $a \ll R$; loading and unloading are one curve, $e = 1$.
+///
+/// ```
+/// use impactlaw::{contact::NormalLaw, theory::hertz::Hertz};
+/// // 4/3 * 3e9 Pa * 0.01^(3/2) = 4e6 Pa, times R^2 = 1e-6 m2: 4 N
+/// let reduced_force = Hertz::new(3e9).force(0.01, &mut ());
+/// assert!((reduced_force * 1e-6 - 4.0).abs() < 1e-12);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hertz {
+    /// $\tfrac43 E^*$, Pa.
+    prefactor: f64,
+}
+
+impl Hertz {
+    /// Law of a body with contact modulus E* (Pa).
+    #[must_use]
+    pub fn new(contact_modulus: f64) -> Self {
+        Self {
+            prefactor: 4.0 / 3.0 * contact_modulus,
+        }
+    }
+
+    /// Law of a material; its flow stress plays no part.
+    #[must_use]
+    pub fn of(material: &Material) -> Self {
+        Self::new(material.contact_modulus())
+    }
+
+    /// Reduced force $F/R^2$ (Pa) at `x` = delta/R.
+    pub(crate) fn reduced_force(&self, x: f64) -> f64 {
+        if x > 0.0 {
+            self.prefactor * x * x.sqrt()
+        } else {
+            0.0
+        }
+    }
+
+    /// Slope of the reduced force (Pa).
+    pub(crate) fn slope(&self, x: f64) -> f64 {
+        1.5 * self.prefactor * x.max(0.0).sqrt()
+    }
+}
+
+impl NormalLaw for Hertz {
+    type History = ();
+
+    fn force(&self, x: f64, _: &mut ()) -> f64 {
+        self.reduced_force(x)
+    }
+
+    fn stiffness(&self, x: f64, _: &()) -> f64 {
+        self.slope(x)
+    }
+
+    /// $\tfrac25 \varphi x$.
+    fn elastic_energy(&self, x: f64, _: &()) -> f64 {
+        0.4 * self.reduced_force(x) * x.max(0.0)
+    }
+
+    fn contact_radius(&self, x: f64, _: &()) -> Option<f64> {
+        Some(x.max(0.0).sqrt())
+    }
+
+    fn valid_to(&self) -> f64 {
+        f64::INFINITY
+    }
+}

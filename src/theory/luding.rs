@@ -1,0 +1,100 @@
+//! Luding: linear springs whose unloading stiffens with the largest overlap up to a limit branch.
+
+use super::envelope::{Envelope, Unloading};
+use super::spring::Springs;
+use crate::material::Material;
+
+/// Plasticity depth $\phi_f$ of the paper: limit of the residual overlap over the reduced radius.
+const PLASTICITY_DEPTH: f64 = 0.05;
+
+/// Adhesive elasto-plastic springs of Luding, here without the adhesive branch ($k_c = 0$).
+///
+/// $$ F = k_1 \delta \ (\delta \le \delta^*), \quad F = \hat k_2 (\delta - \delta^*_r) \ (\delta > \delta^*), \quad
+///    \delta^* = \frac{\hat k_2}{\hat k_2 - k_1} \phi_f \frac{2 R_1 R_2}{R_1 + R_2}, \quad
+///    \delta^*_r = \phi_f \frac{2 R_1 R_2}{R_1 + R_2} $$
+/// $$ \text{unloading:}\quad F = k_2 (\delta - \delta_r), \quad \delta_r = \delta_m\left(1 - \frac{k_1}{k_2}\right), \quad
+///    k_2 = k_1 + (\hat k_2 - k_1) \frac{\delta_m}{\delta^*} $$
+///
+/// Source: Luding 2008, Granular Matter 10, 235 (as documented by LAMMPS); $\phi_f = 0.05$. Past $\delta^*$ the
+/// contact is elastic on the limit branch. One body here is half of a pair of equal spheres, so its limit residual
+/// is $\phi_f R/2$: in series two such bodies are the published pair law; a wall is then a mirror (codes differ
+/// there). Stiffnesses from a material: [`Springs`], with $\hat k_2$ the reference $k_2$ (unverified choice: the
+/// paper leaves them free). Contact radius: that of Hertz.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Luding {
+    loading: f64,
+    limit: f64,
+    limit_flattening: f64,
+    limit_residual: f64,
+}
+
+impl Luding {
+    /// Law from $k_1/R$ and $\hat k_2/R$ (Pa); $\hat k_2 = k_1$ is a linear elastic spring.
+    #[must_use]
+    pub fn new(loading: f64, limit: f64) -> Self {
+        let limit_residual = 0.5 * PLASTICITY_DEPTH;
+        Self {
+            loading,
+            limit,
+            limit_flattening: limit / (limit - loading) * limit_residual,
+            limit_residual,
+        }
+    }
+
+    /// Law of a material; `None` for an elastic body.
+    #[must_use]
+    pub fn of(material: &Material) -> Option<Self> {
+        let springs = Springs::of(material)?;
+        Some(Self::new(springs.loading, springs.unloading))
+    }
+
+    /// Unloading stiffness over R (Pa) after a largest flattening `peak`.
+    fn stiffness_after(&self, peak: f64) -> f64 {
+        let share = (peak / self.limit_flattening).min(1.0);
+        self.loading + (self.limit - self.loading) * share
+    }
+
+    /// Coefficient of restitution at speed `velocity` (m/s), from the energies of the two springs:
+    ///
+    /// $$ e = \sqrt{k_1/k_2(\delta_m)}, \quad \delta_m = V\sqrt{m/k_1} \le \delta^* $$
+    ///
+    /// `None` past the limit branch. Derived here; the paper gives the springs only.
+    #[must_use]
+    pub fn restitution(&self, material: &Material, velocity: f64) -> Option<f64> {
+        let peak = velocity * (material.sphere_mass(1.0) / self.loading).sqrt();
+        (peak <= self.limit_flattening).then(|| (self.loading / self.stiffness_after(peak)).sqrt())
+    }
+}
+
+impl Envelope for Luding {
+    fn loading(&self, x: f64) -> f64 {
+        if x <= self.limit_flattening {
+            self.loading * x
+        } else {
+            self.limit * (x - self.limit_residual)
+        }
+    }
+
+    fn loading_slope(&self, x: f64) -> f64 {
+        if x <= self.limit_flattening {
+            self.loading
+        } else {
+            self.limit
+        }
+    }
+
+    fn loading_contact_radius(&self, x: f64) -> f64 {
+        x.sqrt()
+    }
+
+    fn unloading(&self, peak: f64, _: f64) -> Unloading {
+        if peak > self.limit_flattening {
+            return Unloading::linear(self.limit_residual);
+        }
+        Unloading::linear(peak * (1.0 - self.loading / self.stiffness_after(peak)))
+    }
+
+    fn supported_to(&self) -> f64 {
+        f64::INFINITY
+    }
+}

@@ -1,0 +1,34 @@
+//! Wu, Li and Thornton: restitution at finite plastic deformation, from finite elements; no force law.
+
+use crate::material::{Material, YIELD_PRESSURE_RATIO};
+
+/// Prefactor of the curve of finite plastic deformation.
+const FINITE: f64 = 0.62;
+/// Prefactor of the curve of small plastic deformation.
+const SMALL: f64 = 2.08;
+
+/// Name on the command line and in reports.
+pub const NAME: &str = "wu-li-thornton";
+/// Paper.
+pub const REFERENCE: &str = "Wu, Li and Thornton 2003, Int. J. Impact Eng. 28, 929";
+
+/// Coefficient of restitution of an elastic-perfectly plastic sphere on a rigid wall at speed `velocity` (m/s):
+///
+/// $$ e = 2.08 \left(\frac{V}{V_y}\right)^{-1/4}, \qquad
+///    e = 0.62 \left(\frac{V/V_y}{E^*/Y}\right)^{-1/2} \ \text{ from } \ \frac{V}{V_y} =
+///   \left(\frac{0.62}{2.08}\right)^4 \left(\frac{E^*}{Y}\right)^2 \text{ on} $$
+///
+/// the speed where the two meet. $V_y$ with a peak pressure $1.6\,Y$. Source: Wu, Li and Thornton 2003; **2.08 and
+/// the pressure ratio are unverified** (their intersection, $0.0079 (E^*/Y)^2$, agrees with the transition $0.008 (E^*/Y)^2$
+/// of the paper). `None` for an elastic body and where the formula exceeds 1.
+#[must_use]
+pub fn restitution(material: &Material, velocity: f64) -> Option<f64> {
+    let stiffness = material.contact_modulus() / material.flow?.yield_strength;
+    let v = velocity / material.yield_point(1.0, YIELD_PRESSURE_RATIO)?.velocity;
+    let e = if v < (FINITE / SMALL).powi(4) * stiffness * stiffness {
+        SMALL * v.powf(-0.25)
+    } else {
+        FINITE * (v / stiffness).powf(-0.5)
+    };
+    (e <= 1.0).then_some(e)
+}

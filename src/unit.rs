@@ -1,0 +1,331 @@
+//! Quantities as text: `"70 GPa"` to an SI number and back; the only place where a unit is converted.
+//!
+//! Structs that mirror a file hold [`Quantity`] fields; command-line arguments go through [`argument`].
+//! Both accept what uom knows ("250 µm", "7274 kg/m³"), and its ASCII spellings ("250 um", "7274 kg/m^3", "9.81 m/s2").
+
+use crate::{Error, Result};
+use serde::de::{self, Deserializer, Visitor};
+use std::fmt;
+use std::marker::PhantomData;
+use std::str::FromStr;
+use uom::si::f64 as si;
+
+/// Physical dimension of a quantity in a file: which units it takes and what to suggest.
+pub trait Dimension: Copy + fmt::Debug {
+    /// With article, as in "must be a length with its unit".
+    const NAME: &'static str;
+    /// An example of an acceptable text.
+    const EXAMPLE: &'static str;
+    /// Number in SI base units; `None` when the text is not "number unit" of this dimension.
+    fn si(text: &str) -> Option<f64>;
+}
+
+/// Declares the dimensions: marker, name with article, example, uom's type.
+macro_rules! dimensions {
+    ($($(#[$doc:meta])* $marker:ident, $name:literal, $example:literal, $quantity:ty;)+) => {$(
+        $(#[$doc])*
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        pub enum $marker {}
+
+        impl Dimension for $marker {
+            const NAME: &'static str = $name;
+            const EXAMPLE: &'static str = $example;
+            fn si(text: &str) -> Option<f64> {
+                <$quantity>::from_str(text).ok().map(|quantity| quantity.value)
+            }
+        }
+    )+};
+}
+
+dimensions! {
+    /// m.
+    Length, "a length", "250 um", si::Length;
+    /// m/s.
+    Velocity, "a velocity", "10 m/s", si::Velocity;
+    /// m/s2.
+    Acceleration, "an acceleration", "9.81 m/s2", si::Acceleration;
+    /// rad/s.
+    AngularVelocity, "an angular velocity", "30 rpm", si::AngularVelocity;
+    /// rad.
+    Angle, "an angle", "45 deg", si::Angle;
+    /// kg/m3.
+    Density, "a density", "7274 kg/m3", si::MassDensity;
+    /// kg.
+    Mass, "a mass", "1.5 mg", si::Mass;
+    /// Pa.
+    Pressure, "a pressure", "70 GPa", si::Pressure;
+    /// N.
+    Force, "a force", "2.5 N", si::Force;
+    /// s.
+    Time, "a time", "20 ms", si::Time;
+}
+
+/// Text that is not a quantity of the dimension asked for.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("found {found}; {allowed}")]
+pub struct UnitError {
+    /// What was given, quoted.
+    pub found: String,
+    /// What is allowed, with an example.
+    pub allowed: String,
+}
+
+/// SI value of a text such as `"250 um"`.
+///
+/// ```
+/// use impactlaw::unit::{self, Density, Length};
+/// assert_eq!(unit::parse::<Length>("250 um").unwrap(), 250e-6);
+/// assert_eq!(unit::parse::<Density>("7274 kg/m3").unwrap(), 7274.0);
+/// let error = unit::parse::<Length>("250").unwrap_err();
+/// assert_eq!(error.to_string(), r#"found "250"; must be a length with its unit, e.g. "250 um""#);
+/// ```
+///
+/// # Errors
+/// [`UnitError`] when the unit is missing, unknown or of another dimension, or the number is not finite.
+pub fn parse<D: Dimension>(text: &str) -> std::result::Result<f64, UnitError> {
+    D::si(&uom_spelling(text))
+        .filter(|value| value.is_finite())
+        .ok_or_else(|| UnitError {
+            found: format!("\"{text}\""),
+            allowed: format!("must be {} with its unit, e.g. \"{}\"", D::NAME, D::EXAMPLE),
+        })
+}
+
+/// SI value of a command-line argument.
+///
+/// # Errors
+/// [`Error::Argument`] naming `argument`, as for [`parse`].
+pub fn argument<D: Dimension>(argument: &str, text: &str) -> Result<f64> {
+    parse::<D>(text).map_err(|UnitError { found, allowed }| Error::Argument {
+        argument: argument.to_owned(),
+        found,
+        allowed,
+    })
+}
+
+/// "7274 kg/m^3" and "250 um" as uom spells them: "7274 kg/m³", "250 µm".
+fn uom_spelling(text: &str) -> String {
+    let text = text.trim();
+    let Some((number, unit)) = text.split_once(char::is_whitespace) else {
+        return text.to_owned();
+    };
+    let mut unit = unit.trim().replace('^', "").replace('\u{3bc}', "µ");
+    unit = unit
+        .replace('2', "²")
+        .replace('3', "³")
+        .replace("deg/", "°/");
+    if unit == "deg" {
+        unit = "°".to_owned();
+    }
+    if let Some(rest) = unit.strip_prefix('u').filter(|rest| !rest.is_empty()) {
+        unit = format!("µ{rest}");
+    }
+    format!("{number} {unit}")
+}
+
+/// Quantity in an input file: written as text with a unit, held in SI.
+///
+/// ```
+/// use impactlaw::unit::{Length, Quantity};
+/// #[derive(serde::Deserialize)]
+/// struct Particle { radius: Quantity<Length> }
+/// let particle: Particle = toml::from_str(r#"radius = "250 um""#).unwrap();
+/// assert_eq!(particle.radius.si(), 250e-6);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Quantity<D> {
+    si: f64,
+    dimension: PhantomData<D>,
+}
+
+impl<D> Quantity<D> {
+    /// Value in SI base units.
+    #[must_use]
+    pub fn si(self) -> f64 {
+        self.si
+    }
+}
+
+impl<'de, D: Dimension> de::Deserialize<'de> for Quantity<D> {
+    fn deserialize<T: Deserializer<'de>>(deserializer: T) -> std::result::Result<Self, T::Error> {
+        deserializer.deserialize_any(TextVisitor(PhantomData))
+    }
+}
+
+/// Reads a [`Quantity`]; says what is missing when the file holds a bare number.
+struct TextVisitor<D>(PhantomData<D>);
+
+impl<D: Dimension> Visitor<'_> for TextVisitor<D> {
+    type Value = Quantity<D>;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(
+            f,
+            "{} with its unit as text, e.g. \"{}\"",
+            D::NAME,
+            D::EXAMPLE
+        )
+    }
+
+    fn visit_str<E: de::Error>(self, text: &str) -> std::result::Result<Self::Value, E> {
+        let si = parse::<D>(text).map_err(E::custom)?;
+        Ok(Quantity {
+            si,
+            dimension: PhantomData,
+        })
+    }
+}
+
+/// `value` with `digits` significant digits and an SI prefix: `engineering(250e-6, "m", 3)` is "250 µm".
+///
+/// Compound units ("m/s", "kg/m³") take no prefix; kilograms become grams with a prefix.
+///
+/// ```
+/// use impactlaw::unit::engineering;
+/// assert_eq!(engineering(1.25e9, "Pa", 3), "1.25 GPa");
+/// assert_eq!(engineering(14.72, "N", 3), "14.7 N");
+/// assert_eq!(engineering(7274.0, "kg/m³", 4), "7274 kg/m³");
+/// assert_eq!(engineering(4.76e-7, "kg", 3), "476 µg");
+/// ```
+#[must_use]
+pub fn engineering(value: f64, unit: &str, digits: usize) -> String {
+    // The prefix is that of the rounded number, so that 999.9 at three digits is "1 k", not "1000 ".
+    let rounded: f64 = format!("{value:.*e}", digits.saturating_sub(1))
+        .parse()
+        .unwrap_or(value);
+    let (factor, unit) = prefixed(rounded, unit);
+    format!("{} {unit}", significant(value * factor, digits))
+}
+
+/// Factor and unit that bring `size` into 1 .. 1000: `prefixed(2e-4, "m")` is `(1e6, "µm")`.
+///
+/// For axes and columns, whose numbers share one unit. Compound units take no prefix, kilograms become grams.
+#[must_use]
+pub fn prefixed(size: f64, unit: &str) -> (f64, String) {
+    const PREFIXES: [&str; 9] = ["p", "n", "µ", "m", "", "k", "M", "G", "T"];
+    if unit == "kg" {
+        let (factor, unit) = prefixed(size * 1e3, "g");
+        return (factor * 1e3, unit);
+    }
+    if unit.contains(['/', '²', '³']) || unit.is_empty() || size == 0.0 || !size.is_finite() {
+        return (1.0, unit.to_owned());
+    }
+    // Powers of ten are their own group although their logarithm is rounded.
+    let group = (size.abs().log10() / 3.0 + 1e-12).floor().clamp(-4.0, 4.0);
+    let prefix = PREFIXES[(group + 4.0) as usize];
+    (1000f64.powi(-group as i32), format!("{prefix}{unit}"))
+}
+
+/// `value` with `digits` significant digits, trailing zeros dropped, and an exponent only outside 1e-4 .. 1e6.
+#[must_use]
+pub fn significant(value: f64, digits: usize) -> String {
+    let text = rounded(value, digits);
+    let (mantissa, exponent) = text.split_at(text.find('e').unwrap_or(text.len()));
+    format!("{}{exponent}", without_trailing_zeros(mantissa))
+}
+
+/// As [`significant`], trailing zeros kept: for columns, where 3.50 stands under 10.5.
+#[must_use]
+pub fn rounded(value: f64, digits: usize) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return format!("{value}");
+    }
+    let scientific = format!("{value:.*e}", digits.saturating_sub(1));
+    let exponent: Option<i32> = scientific.split_once('e').and_then(|(_, e)| e.parse().ok());
+    match exponent {
+        Some(exponent) if (-4..6).contains(&exponent) => {
+            let decimals = (digits as i32 - 1 - exponent).max(0) as usize;
+            format!("{value:.decimals$}")
+        }
+        _ => scientific,
+    }
+}
+
+fn without_trailing_zeros(number: &str) -> &str {
+    if number.contains('.') {
+        number.trim_end_matches('0').trim_end_matches('.')
+    } else {
+        number
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn ascii_and_typographic_spellings_agree() {
+        for (a, b) in [
+            ("3 um", "3 µm"),
+            ("3 um", "3 \u{3bc}m"),
+            ("3 um", "0.003 mm"),
+        ] {
+            let (a, b) = (parse::<Length>(a).unwrap(), parse::<Length>(b).unwrap());
+            approx::assert_relative_eq!(a, b, max_relative = 1e-15);
+        }
+        assert_eq!(parse::<Density>("8 g/cm^3").unwrap(), 8000.0);
+        assert_eq!(
+            parse::<Acceleration>("9.81 m/s^2"),
+            parse::<Acceleration>("9.81 m/s²")
+        );
+        assert_eq!(parse::<Angle>("180 deg").unwrap(), std::f64::consts::PI);
+        assert_eq!(
+            parse::<AngularVelocity>("360 deg/s"),
+            parse::<AngularVelocity>("360 °/s")
+        );
+        assert_eq!(parse::<Time>("2 us").unwrap(), 2e-6);
+        assert_eq!(parse::<Force>("2 uN").unwrap(), 2e-6);
+        assert_eq!(parse::<Mass>("1 g").unwrap(), 1e-3);
+        assert_eq!(parse::<Velocity>("-5 mm/s").unwrap(), -5e-3);
+    }
+
+    #[test]
+    fn wrong_dimension_missing_unit_and_non_finite_are_rejected() {
+        for text in [
+            "", "250", "um", "250um", "250 Pa", "inf m", "NaN m", "1e400 m", "1,5 m", "3 u",
+            "2 m 3",
+        ] {
+            let error = parse::<Length>(text).unwrap_err();
+            assert_eq!(error.found, format!("\"{text}\""));
+            assert!(error.allowed.contains("250 um"), "{error}");
+        }
+    }
+
+    #[test]
+    fn every_example_is_acceptable() {
+        fn accepted<D: Dimension>() {
+            assert!(parse::<D>(D::EXAMPLE).unwrap() > 0.0);
+        }
+        accepted::<Length>();
+        accepted::<Velocity>();
+        accepted::<Acceleration>();
+        accepted::<AngularVelocity>();
+        accepted::<Angle>();
+        accepted::<Density>();
+        accepted::<Mass>();
+        accepted::<Pressure>();
+        accepted::<Force>();
+        accepted::<Time>();
+    }
+
+    #[test]
+    fn engineering_text_rounds_across_a_prefix() {
+        assert_eq!(engineering(999.96e-6, "m", 3), "1 mm");
+        assert_eq!(engineering(1e-6, "s", 3), "1 µs");
+        assert_eq!(engineering(1000.0, "N", 3), "1 kN");
+        assert_eq!(engineering(-2.5e-3, "m", 3), "-2.5 mm");
+        assert_eq!(engineering(0.0, "N", 3), "0 N");
+        assert_eq!(engineering(3e-15, "J", 2), "0.003 pJ");
+        assert_eq!(engineering(12.0, "m/s", 3), "12 m/s");
+    }
+
+    proptest! {
+        #[test]
+        fn engineering_text_reads_back(mantissa in 1.0f64..10.0, exponent in -11i32..13) {
+            let value = mantissa * 10f64.powi(exponent);
+            let back = parse::<Pressure>(&engineering(value, "Pa", 6)).unwrap();
+            prop_assert!((back / value - 1.0).abs() < 1e-5);
+        }
+    }
+}

@@ -1,0 +1,506 @@
+//! Many grains: the same bits for any number of threads, energy and momentum kept, rest, and whole scenes.
+
+use impactlaw::bed::bodies::{Body, Mobility, Solid};
+use impactlaw::bed::damping::Viscous;
+use impactlaw::bed::friction::{Mindlin, RollingSpring, Slider};
+use impactlaw::bed::grains::Grains;
+use impactlaw::bed::insertion::insert;
+use impactlaw::bed::law::{ContactLaw, Law};
+use impactlaw::bed::machine::Machine;
+use impactlaw::bed::normals::Model;
+use impactlaw::bed::run::{BedReport, Options, run_scene};
+use impactlaw::bed::scene::Scene;
+use impactlaw::bed::step::{Bed, Normals, Parts};
+use impactlaw::contact::NormalLaw;
+use impactlaw::contact::pair::{Flat, Twins};
+use impactlaw::material::{Material, YIELD_PRESSURE_RATIO};
+use impactlaw::theory::hertz::Hertz;
+use impactlaw::theory::thornton::Thornton;
+use parry3d::math::{Rotation, Vector};
+use std::path::Path;
+
+/// Soft grains, so that a test needs few steps.
+const SCENE: &str = r#"
+laws = ["hertz", "thornton"]
+seed = 7
+gravity = "9.81 m/s2"
+[material]
+density = "2500 kg/m3"
+young_modulus = "50 MPa"
+poisson_ratio = 0.3
+yield_strength = "100 kPa"
+[grains]
+count = 150
+radius = "1 mm"
+stir = "0.2 m/s"
+[contact]
+friction = 0.4
+restitution = 0.7
+[box]
+width = "10 mm"
+depth = "12 mm"
+[[stage]]
+kind = "settle"
+stiffness = 0.1
+friction = 0.1
+longest = "200 ms"
+rest_speed = "5 mm/s"
+[[stage]]
+kind = "relax"
+steps = 500
+[[stage]]
+kind = "compress"
+speed = "0.2 m/s"
+seating_stress = "500 Pa"
+strain = 0.04
+[[stage]]
+kind = "unload"
+speed = "0.2 m/s"
+[output]
+rows = 30
+frames = 1
+"#;
+
+fn scene(from: &str, to: &str) -> Result<Scene, impactlaw::Error> {
+    assert!(SCENE.contains(from), "{from}");
+    Scene::parse(&SCENE.replace(from, to), Path::new("small.toml"))
+}
+
+fn normals<L: NormalLaw>(law: &L) -> Normals {
+    Normals {
+        pair: Box::new(Model(Twins(law.clone()))),
+        wall: Box::new(Model(Flat(law.clone()))),
+    }
+}
+
+type Frictional = Law<Viscous, Mindlin, RollingSpring>;
+
+fn frictional(material: &Material) -> Frictional {
+    Law::new(
+        Viscous::new(0.7),
+        Mindlin::new(material, 0.4),
+        RollingSpring::new(material, 0.05),
+    )
+}
+
+/// The scene's grains falling into its box under a law that yields, after `steps`.
+fn fallen(steps: usize, count: usize) -> Bed<Frictional> {
+    let scene = Scene {
+        count,
+        ..scene("seed = 7", "seed = 8").unwrap()
+    };
+    let (grains, room) = insert(&scene, 1);
+    let gravity = Vector::new(0.0, 0.0, -9.81);
+    let parts = Parts {
+        grains,
+        machine: Machine::new(room.bodies(), gravity, scene.radius).unwrap(),
+        gravity,
+        dt: 1e-5,
+        skin: 0.2 * scene.radius,
+    };
+    let law = Thornton::of(&scene.material, YIELD_PRESSURE_RATIO).unwrap();
+    let mut bed = Bed::new(frictional(&scene.material), normals(&law), parts);
+    bed.machine.drive(5, Vector::new(0.0, 0.0, -0.5));
+    for _ in 0..steps {
+        bed.step().unwrap();
+    }
+    bed
+}
+
+#[test]
+fn one_and_two_threads_give_the_same_bits() {
+    let run = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
+        pool.install(|| fallen(4000, 1600))
+    };
+    let (one, two) = (run(1), run(2));
+    assert!(
+        one.contacts.list.pairs.len() > 1024,
+        "too few pairs to need several tasks"
+    );
+    assert!(
+        one.contacts
+            .memory
+            .iter()
+            .any(|memory| memory.tangential != Slider::default())
+    );
+    assert_eq!(one.grains, two.grains);
+    assert!(one.contacts.same(&two.contacts) && one.surfaces.same(&two.surfaces));
+    assert_eq!(one.machine.state(), two.machine.state());
+    assert_eq!(one.losses(), two.losses());
+}
+
+fn run(scene: &Scene) -> (BedReport, tempfile::TempDir) {
+    let folder = tempfile::tempdir().unwrap();
+    let options = Options {
+        folder: folder.path(),
+        provenance: "test",
+        seed: None,
+        progress: &|_, _| (),
+    };
+    (run_scene(scene, None, &options).unwrap(), folder)
+}
+
+#[test]
+fn a_scene_closes_its_energy_keeps_its_grains_and_tells_laws_apart() {
+    let (report, folder) = run(&scene("seed = 7", "seed = 7").unwrap());
+    for summary in report
+        .laws
+        .iter()
+        .map(|run| &run.summary)
+        .chain([&report.packing_summary])
+    {
+        assert!(
+            summary.energy_closure < 0.01,
+            "{}: {}",
+            summary.law,
+            summary.energy_closure
+        );
+        assert_eq!(summary.lost_grains, 0, "{}", summary.law);
+        assert_eq!(summary.status, "ok");
+    }
+    let [hertz, thornton] = &report.laws[..] else {
+        panic!("two laws")
+    };
+    assert!(
+        hertz.summary.plastic_share.abs() < 1e-3,
+        "{}",
+        hertz.summary.plastic_share
+    );
+    assert!(
+        thornton.summary.plastic_share > 0.1,
+        "{}",
+        thornton.summary.plastic_share
+    );
+    assert!(thornton.summary.max_stress_pa < hertz.summary.max_stress_pa);
+    assert!(thornton.summary.residual_strain > hertz.summary.residual_strain);
+    for run in &report.laws {
+        let dissipated =
+            |at: usize| run.rows[at].friction_j + run.rows[at].damping_j + run.rows[at].plastic_j;
+        assert!(
+            dissipated(run.rows.len() - 1) > dissipated(0),
+            "{}",
+            run.law
+        );
+    }
+    for file in [
+        "bed.png",
+        "oedometer.csv",
+        "hertz/bed.csv",
+        "thornton/summary.json",
+        "hertz/vtp/contacts.pvd",
+    ] {
+        assert!(folder.path().join("bed").join(file).is_file(), "{file}");
+    }
+}
+
+#[test]
+fn a_scene_gives_the_same_rows_twice() {
+    let scene = scene("count = 150", "count = 60").unwrap();
+    let (one, two) = (run(&scene).0, run(&scene).0);
+    assert_eq!(one.packing, two.packing);
+    assert!(
+        one.laws
+            .iter()
+            .zip(&two.laws)
+            .all(|(a, b)| a.rows == b.rows)
+    );
+}
+
+#[test]
+fn polydisperse_grains_close_their_energy_too() {
+    let scene = scene("radius = \"1 mm\"", "radius = \"1 mm\"\nspread = 0.2").unwrap();
+    let (report, _folder) = run(&scene);
+    for run in &report.laws {
+        assert!(
+            run.summary.energy_closure < 0.01,
+            "{}: {}",
+            run.law,
+            run.summary.energy_closure
+        );
+    }
+}
+
+const GLASS: Material = Material {
+    density: 2500.0,
+    young_modulus: 50e6,
+    poisson_ratio: 0.3,
+    flow: None,
+};
+
+fn weightless<C: ContactLaw>(
+    effects: C,
+    grains: Grains,
+    bodies: Vec<Body>,
+    gravity: Vector,
+) -> Bed<C> {
+    let parts = Parts {
+        grains,
+        machine: Machine::new(bodies, gravity, 1e-3).unwrap(),
+        gravity,
+        dt: 5e-6,
+        skin: 0.5e-3,
+    };
+    Bed::new(effects, normals(&Hertz::of(&GLASS)), parts)
+}
+
+#[test]
+fn grains_and_a_free_block_keep_their_momentum() {
+    let mut grains = Grains::default();
+    for index in 0..60 {
+        let place = Vector::new(
+            (index % 4) as f64,
+            (index / 4 % 4) as f64,
+            (index / 16) as f64,
+        );
+        grains.add(
+            2.1e-3 * (place + Vector::new(-1.5, -1.5, 0.6)),
+            1e-3,
+            GLASS.density,
+        );
+        grains.motions[index].velocity =
+            Vector::new(0.01, -0.02, -0.5) * (1.0 + index as f64 / 60.0);
+    }
+    let block = Body {
+        name: "block".to_owned(),
+        solid: Solid::Cuboid(Vector::new(5e-3, 4e-3, 2e-3)),
+        centre: Vector::new(0.0, 0.0, -2e-3),
+        rotation: Rotation::IDENTITY,
+        mobility: Mobility::Free {
+            mass: 1e-3,
+            slide: None,
+        },
+    };
+    let mut bed = weightless(frictional(&GLASS), grains, vec![block], Vector::ZERO);
+    let momentum = |bed: &Bed<Frictional>| {
+        let of_grains: Vector = bed
+            .grains
+            .motions
+            .iter()
+            .map(|m| m.velocity / m.inverse_mass)
+            .sum();
+        (
+            of_grains,
+            of_grains + bed.machine.stations[0].velocity / bed.machine.stations[0].inverse_mass,
+        )
+    };
+    let (first, total) = momentum(&bed);
+    for _ in 0..4000 {
+        bed.step().unwrap();
+    }
+    let (last, after) = momentum(&bed);
+    assert!(
+        (last - first).length() > 0.5 * first.length(),
+        "the grains hardly hit the block"
+    );
+    assert!(
+        (after - total).length() < 1e-12 * total.length(),
+        "{}",
+        (after - total).length() / total.length()
+    );
+}
+
+/// A grain thrown along a floor of two materials' making: solid, or a mesh with many inner edges.
+fn slid(solid: Solid, steps: usize) -> Bed<Frictional> {
+    let mut grains = Grains::default();
+    grains.add(Vector::new(0.0, 0.1e-3, 1e-3), 1e-3, GLASS.density);
+    grains.motions[0].velocity = Vector::new(0.3, 0.02, 0.0);
+    let centre = if matches!(solid, Solid::Cuboid(_)) {
+        Vector::new(0.0, 0.0, -1e-2)
+    } else {
+        Vector::ZERO
+    };
+    let floor = Body {
+        name: "floor".to_owned(),
+        solid,
+        centre,
+        rotation: Rotation::IDENTITY,
+        mobility: Mobility::Fixed,
+    };
+    let mut bed = weightless(
+        frictional(&GLASS),
+        grains,
+        vec![floor],
+        Vector::new(0.0, 0.0, -9.81),
+    );
+    for _ in 0..steps {
+        bed.step().unwrap();
+    }
+    bed
+}
+
+fn flat_mesh() -> Solid {
+    let (cells, edge) = (40, 0.7e-3);
+    let corner = |x: u32, y: u32| y * (cells + 1) + x;
+    let place = |i: u32| (f64::from(i) - 0.25 * f64::from(cells)) * edge;
+    let vertices = (0..=cells)
+        .flat_map(|y| (0..=cells).map(move |x| Vector::new(place(x), place(y), 0.0)))
+        .collect();
+    let triangles = (0..cells)
+        .flat_map(|y| (0..cells).map(move |x| (x, y)))
+        .flat_map(|(x, y)| {
+            let [a, b, c, d] = [
+                corner(x, y),
+                corner(x + 1, y),
+                corner(x + 1, y + 1),
+                corner(x, y + 1),
+            ];
+            [[a, b, c], [a, c, d]]
+        })
+        .collect();
+    Solid::Mesh {
+        vertices,
+        triangles,
+    }
+}
+
+#[test]
+fn a_grain_slides_over_the_inner_edges_of_a_mesh_as_over_a_block() {
+    let block = slid(Solid::Cuboid(Vector::new(0.1, 0.1, 1e-2)), 8000);
+    let mesh = slid(flat_mesh(), 8000);
+    let (a, b) = (
+        block.grains.spheres[0].centre,
+        mesh.grains.spheres[0].centre,
+    );
+    assert!(a.x > 3e-3, "it hardly moved: {a}");
+    assert!((a - b).length() < 1e-9 * a.x, "{a} {b}");
+    let spins = (block.grains.spins[0].rate, mesh.grains.spins[0].rate);
+    assert!(
+        (spins.0 - spins.1).length() < 1e-6 * spins.0.length(),
+        "{spins:?}"
+    );
+}
+
+#[test]
+fn a_grain_that_rolls_comes_to_rest_and_stays() {
+    let mut bed = slid(Solid::Cuboid(Vector::new(0.1, 0.1, 1e-2)), 400_000);
+    let place = bed.grains.spheres[0].centre;
+    let speed = bed.grains.motions[0].velocity.length() + 1e-3 * bed.grains.spins[0].rate.length();
+    assert!(speed < 1e-9, "still at {speed} m/s");
+    for _ in 0..200_000 {
+        bed.step().unwrap();
+    }
+    assert!(
+        (bed.grains.spheres[0].centre - place).length() < 1e-12,
+        "drifts"
+    );
+    let weight = 9.81 * GLASS.sphere_mass(1e-3);
+    bed.evaluate().unwrap();
+    assert!((bed.loads[0].force.z / -weight - 1.0).abs() < 1e-6);
+}
+
+#[test]
+fn a_lid_on_a_prismatic_joint_rests_on_grains_with_its_weight() {
+    let mut grains = Grains::default();
+    for index in 0..9 {
+        let place = Vector::new((index % 3) as f64 - 1.0, (index / 3) as f64 - 1.0, 0.0);
+        grains.add(
+            2.2e-3 * place + Vector::new(0.0, 0.0, 1e-3),
+            1e-3,
+            GLASS.density,
+        );
+    }
+    let block = |name: &str, z: f64, mobility| Body {
+        name: name.to_owned(),
+        solid: Solid::Cuboid(Vector::new(5e-3, 5e-3, 1e-3)),
+        centre: Vector::new(0.0, 0.0, z),
+        rotation: Rotation::IDENTITY,
+        mobility,
+    };
+    let lid = Mobility::Free {
+        mass: 1e-3,
+        slide: Some(Vector::Z),
+    };
+    let bodies = vec![
+        block("floor", -1e-3, Mobility::Fixed),
+        block("lid", 3.01e-3, lid),
+    ];
+    let mut bed = weightless(
+        frictional(&GLASS),
+        grains,
+        bodies,
+        Vector::new(0.0, 0.0, -9.81),
+    );
+    let (mut force, mut sideways) = (0.0, 0.0f64);
+    for step in 0..60_000 {
+        bed.step().unwrap();
+        if step >= 20_000 {
+            force += bed.loads[1].force.z / 40_000.0;
+        }
+        let lid = &bed.machine.stations[1];
+        sideways = sideways.max(lid.centre.x.abs() + lid.centre.y.abs() + lid.spin.length());
+    }
+    assert!((force / (9.81 * 1e-3) - 1.0).abs() < 1e-3, "{force}");
+    assert!(sideways < 1e-9, "the joint lets go: {sideways}");
+}
+
+#[test]
+fn bad_scenes_are_refused_with_place_and_remedy() {
+    let refused = |from: &str, to: &str, says: &[&str]| {
+        let text = scene(from, to).unwrap_err().to_string();
+        assert!(says.iter().all(|say| text.contains(say)), "{text}");
+    };
+    refused("seed = 7", "sed = 7", &["sed", "unknown field"]);
+    refused(
+        "\"thornton\"",
+        "\"thornten\"",
+        &["laws[1]", "thornten", "one of"],
+    );
+    refused("\"thornton\"", "\"hertz\"", &["laws[1]", "once"]);
+    refused(
+        "\"2500 kg/m3\"",
+        "\"0 kg/m3\"",
+        &["material.density", "positive"],
+    );
+    refused("\"2500 kg/m3\"", "\"2500\"", &["material.density", "2500"]);
+    refused(
+        "width = \"10 mm\"",
+        "width = \"3 mm\"",
+        &["box.width", "overlap"],
+    );
+    refused("count = 150", "count = 0", &["grains.count", "at least 1"]);
+    refused(
+        "restitution = 0.7",
+        "restitution = 1.4",
+        &["contact.restitution", "(0, 1]"],
+    );
+    refused(
+        "friction = 0.4",
+        "rolling = 0.1",
+        &["contact.rolling", "friction"],
+    );
+    refused(
+        "[output]",
+        "[time]\nrayleigh_fraction = 0.9\n[output]",
+        &["time.rayleigh_fraction", "0.5"],
+    );
+    refused(
+        "kind = \"relax\"\nsteps = 500",
+        "kind = \"unload\"\nspeed = \"1 m/s\"",
+        &["stage[1].kind", "order"],
+    );
+    refused("strain = 0.04", "strain = 4.0", &["stage[2].strain", "0.2"]);
+    refused(
+        "yield_strength = \"100 kPa\"",
+        "",
+        &["laws[1]", "yield_strength"],
+    );
+}
+
+#[test]
+fn a_fitted_law_without_a_law_file_is_refused_before_the_first_step() {
+    let scene = scene("\"hertz\"", "\"fitted\"").unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let options = Options {
+        folder: folder.path(),
+        provenance: "test",
+        seed: None,
+        progress: &|_, _| panic!("a step was made"),
+    };
+    let text = run_scene(&scene, None, &options).err().unwrap().to_string();
+    assert!(text.contains("--law") && text.contains("fitted"), "{text}");
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+}

@@ -1,0 +1,80 @@
+//! Studies through the real binary: the file contract, equal groups run once, finished runs kept.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+const STUDY: &str = r#"
+[particle]
+radius = ["250 um"]
+[material]
+density = ["2000 kg/m3", "8000 kg/m3"]
+young_modulus = ["100 GPa"]
+young_over_yield = [80]
+poisson_ratio = [0.35]
+[impact]
+velocities = ["20 m/s", "40 m/s"]
+[accuracy]
+tolerance = 0.2
+"#;
+
+fn study(folder: &Path) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_impactlaw"))
+        .args(["study", "s.toml", "--out", "results"])
+        .current_dir(folder)
+        .output()
+        .unwrap()
+}
+
+#[test]
+fn equal_groups_run_once_and_a_second_call_repeats_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("s.toml"), STUDY).unwrap();
+    let output = study(folder.path());
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    let text = String::from_utf8(output.stdout).unwrap();
+    // 2000 kg/m3 at 40 m/s is 8000 kg/m3 at 20 m/s
+    assert!(
+        text.starts_with("4 cases, 3 runs, 4 with status ok"),
+        "{text}"
+    );
+    let results = folder.path().join("results/results.csv");
+    let first = std::fs::read_to_string(&results).unwrap();
+    let rows: Vec<&str> = first.lines().filter(|l| !l.starts_with('#')).collect();
+    assert!(rows[0].starts_with(
+        "density_kg_m3,young_modulus_Pa,yield_strength_Pa,poisson_ratio,radius_m,velocity_m_s,restitution,max_force_N"
+    ));
+    assert!(rows[0].ends_with("points,steps,wall_s,status"));
+    assert_eq!(rows.len(), 5);
+    let cell = |row: usize, key: &str| -> f64 {
+        let column = rows[0].split(',').position(|k| k == key).unwrap();
+        rows[row].split(',').nth(column).unwrap().parse().unwrap()
+    };
+    assert_eq!(
+        (cell(2, "velocity_m_s"), cell(3, "velocity_m_s")),
+        (40.0, 20.0)
+    );
+    assert_eq!(cell(2, "restitution"), cell(3, "restitution"));
+    assert!((cell(3, "contact_time_s") / cell(2, "contact_time_s") - 2.0).abs() < 1e-12);
+    // the wall times in the second table are those of the first: nothing was run again
+    assert!(study(folder.path()).status.success());
+    assert_eq!(first, std::fs::read_to_string(&results).unwrap());
+}
+
+#[test]
+fn a_bad_study_is_refused_before_anything_is_written() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(
+        folder.path().join("s.toml"),
+        STUDY.replace("[80]", "[80, 0]"),
+    )
+    .unwrap();
+    let output = study(folder.path());
+    assert_eq!(output.status.code(), Some(2));
+    let text = String::from_utf8(output.stderr).unwrap();
+    assert!(text.contains("material.young_over_yield[1]"), "{text}");
+    assert!(!folder.path().join("results").exists());
+}

@@ -1,0 +1,360 @@
+//! Fit to impacts made from a known law: it comes back, at left-out speeds too, the same on any number of threads.
+
+use impactlaw::case::Case;
+use impactlaw::contact::NormalLaw;
+use impactlaw::contact::elastoplastic::{ClosedForm, Elastoplastic};
+use impactlaw::contact::loading::SoftenedHertz;
+use impactlaw::contact::rebound::rebound;
+use impactlaw::contact::unloading::Unloading;
+use impactlaw::curve::{Curve, Impact, Sample, Status, Summary};
+use impactlaw::fit::pulse::Pulse;
+use impactlaw::fit::run::Scale;
+use impactlaw::fit::{Fit, Outcome, THRESHOLD, fit};
+use impactlaw::material::{Flow, Material};
+use impactlaw::theory::hertz::Hertz;
+use std::sync::LazyLock;
+
+const RADIUS: f64 = 250e-6;
+const SPEEDS: [f64; 5] = [5.0, 10.0, 20.0, 30.0, 50.0];
+
+fn material(yield_strength: Option<f64>) -> Material {
+    Material {
+        density: 8000.0,
+        young_modulus: 100e9,
+        poisson_ratio: 0.35,
+        flow: yield_strength.map(|yield_strength| Flow {
+            yield_strength,
+            hardening_modulus: 0.0,
+        }),
+    }
+}
+
+fn case(material: Material) -> Case {
+    Case {
+        name: "synthetic".into(),
+        path: "synthetic.toml".into(),
+        hash: "0".repeat(64),
+        radius: RADIUS,
+        material,
+        velocities: SPEEDS.to_vec(),
+        tolerance: 0.02,
+        bed: None,
+    }
+}
+
+fn known() -> ClosedForm {
+    let scale = Scale::of(&material(Some(1.25e9)), RADIUS).unwrap();
+    let curve = SoftenedHertz::new(0.5, 11.0, 1.1).unwrap();
+    let unloading = Unloading::new(9.0, 0.65, -0.2, 7.0).unwrap();
+    Elastoplastic::new(curve, unloading, scale.units(), 0.1).unwrap()
+}
+
+/// The known law with inertia.
+fn moving() -> ClosedForm {
+    known().with_inertia(KAPPA, 8000.0).unwrap()
+}
+
+const KAPPA: f64 = 12.0;
+
+fn sample(displacement: f64, force: f64) -> Sample {
+    Sample {
+        time_s: 0.0,
+        displacement_m: displacement,
+        centre_displacement_m: displacement,
+        force_n: force,
+        contact_radius_m: 0.0,
+        kinetic_j: 0.0,
+        elastic_j: 0.0,
+        plastic_j: 0.0,
+    }
+}
+
+/// Squared rate of approach at flattenings from 0 to `turn`, by small Runge-Kutta steps of m delta'' = -F.
+fn squared_rates<L: NormalLaw>(law: &L, velocity: f64, mass: f64, at: &[f64]) -> Vec<f64> {
+    let force = |x: f64, v2: f64| {
+        let core = law.force(x, &mut L::History::default());
+        -2.0 * RADIUS.powi(3) / mass * (core + law.inertia().force(x, v2))
+    };
+    let (mut x, mut v2) = (0.0, velocity * velocity);
+    let step = |x: f64, v2: f64, h: f64| {
+        let a = force(x, v2);
+        let b = force(x + 0.5 * h, v2 + 0.5 * h * a);
+        let c = force(x + 0.5 * h, v2 + 0.5 * h * b);
+        let d = force(x + h, v2 + h * c);
+        v2 + h / 6.0 * (a + 2.0 * b + 2.0 * c + d)
+    };
+    let mut rates = Vec::new();
+    for end in at {
+        let h = (end - x) / 20.0;
+        for _ in 0..20 {
+            v2 = step(x, v2, h);
+            x += h;
+        }
+        rates.push(v2.max(0.0));
+    }
+    rates
+}
+
+/// The impact a law gives, with 600 samples up and 600 down.
+fn impact<L: NormalLaw>(law: &L, velocity: f64, mass: f64) -> Impact {
+    let hit = rebound(law, RADIUS, mass, velocity);
+    let mut history = L::History::default();
+    let (most, left) = (hit.max_displacement, hit.residual_displacement);
+    let up: Vec<f64> = (0..=600).map(|i| most * f64::from(i) / 600.0).collect();
+    let down = (1..=600).map(|i| most + (left - most) * f64::from(i) / 600.0);
+    let flattenings: Vec<f64> = up.iter().map(|d| d / RADIUS).collect();
+    let rates = squared_rates(law, velocity, mass, &flattenings);
+    let rates = rates.into_iter().chain(std::iter::repeat(0.0));
+    let samples = up
+        .into_iter()
+        .chain(down)
+        .zip(rates)
+        .map(|(d, v2)| {
+            let core = law.force(d / RADIUS, &mut history);
+            let added = law.inertia().force(d / RADIUS, v2);
+            sample(d, (core + added) * RADIUS * RADIUS)
+        })
+        .collect();
+    Impact {
+        summary: Summary {
+            velocity_m_s: velocity,
+            restitution: hit.restitution,
+            max_force_n: hit.max_force,
+            max_displacement_m: most,
+            max_centre_displacement_m: most,
+            residual_displacement_m: left,
+            contact_time_s: hit.contact_time,
+            compression_ratio: 0.0,
+            height_at_max_compression_ratio: 0.0,
+            equivalent_plastic_strain: 0.0,
+            plastic_work_ratio: 0.0,
+            energy_closure: 0.0,
+            points: 0,
+            steps: 0,
+            wall_s: 0.0,
+            status: Status::Ok,
+        },
+        curve: Curve { samples },
+    }
+}
+
+fn impacts() -> Vec<Impact> {
+    let mass = material(None).sphere_mass(RADIUS);
+    SPEEDS.map(|v| impact(&known(), v, mass)).to_vec()
+}
+
+/// The fit most tests look at.
+static FITTED: LazyLock<Fit> = LazyLock::new(fitted);
+
+fn fitted() -> Fit {
+    fit(&case(material(Some(1.25e9))), &impacts()).unwrap()
+}
+
+#[test]
+fn a_known_law_comes_back() {
+    let Outcome::Yielding {
+        closed_form,
+        spline,
+    } = &FITTED.outcome
+    else {
+        panic!("the impacts yield");
+    };
+    // being held near a start costs at most what figures off by their tolerance, half a per cent, cost
+    for q in closed_form.quality.iter().chain(&spline.quality) {
+        assert!(q.worst() < 0.005, "{q:?}");
+        assert!(q.contact_time.abs() < 0.005, "{q:?}");
+        assert!(q.residual_displacement.abs() < 0.005, "{q:?}");
+        assert!(q.loading_force < 0.005, "{q:?}");
+        assert!(q.unloading_force < 0.005, "{q:?}");
+    }
+    // the constants themselves are held weakly near their starts, so they come back less sharply than the curve
+    let truth = known();
+    for x in [0.005, 0.01, 0.02, 0.05] {
+        let force = |law: &ClosedForm| law.force(x, &mut Default::default());
+        let error = force(&closed_form.law) / force(&truth) - 1.0;
+        assert!(error.abs() < 0.01, "{error} at {x}");
+    }
+}
+
+#[test]
+fn left_out_speeds_of_a_known_law_are_predicted() {
+    let Outcome::Yielding {
+        closed_form,
+        spline,
+    } = &FITTED.outcome
+    else {
+        panic!("the impacts yield");
+    };
+    assert_eq!(closed_form.left_out.len(), SPEEDS.len());
+    for l in &closed_form.left_out {
+        let worst = l
+            .max_force
+            .abs()
+            .max(l.max_displacement.abs())
+            .max(l.restitution.abs());
+        assert!(worst < 0.01, "{l:?}");
+    }
+    // the spline goes on as a straight line past its last knot, so its extrapolation is worse
+    for l in &spline.left_out[1..SPEEDS.len() - 1] {
+        let worst = l
+            .max_force
+            .abs()
+            .max(l.max_displacement.abs())
+            .max(l.restitution.abs());
+        assert!(worst < 0.01, "{l:?}");
+    }
+}
+
+#[test]
+fn inertia_comes_back_where_there_is_some_and_is_left_out_where_there_is_none() {
+    let Outcome::Yielding {
+        closed_form,
+        spline,
+    } = &FITTED.outcome
+    else {
+        panic!("the impacts yield");
+    };
+    assert!(closed_form.law.inertia().is_none() && spline.law.inertia().is_none());
+    let mass = material(None).sphere_mass(RADIUS);
+    let impacts = SPEEDS.map(|v| impact(&moving(), v, mass));
+    let fit = fit(&case(material(Some(1.25e9))), &impacts).unwrap();
+    let Outcome::Yielding {
+        closed_form,
+        spline,
+    } = &fit.outcome
+    else {
+        panic!("the impacts yield");
+    };
+    // the coefficient starts at 5.7 and is held there weakly, so it comes back a little small
+    for (kappa, intervals) in [
+        (
+            closed_form.law.inertia().coefficient(),
+            &closed_form.intervals,
+        ),
+        (spline.law.inertia().coefficient(), &spline.intervals),
+    ] {
+        assert!((kappa / KAPPA - 1.0).abs() < 0.1, "{kappa}");
+        let intervals = intervals.as_ref().unwrap();
+        let [low, high] = intervals[intervals.len() - 5];
+        assert!(
+            low <= kappa && kappa <= high,
+            "{kappa} not in {low}..{high}"
+        );
+    }
+    for q in closed_form.quality.iter().chain(&spline.quality) {
+        assert!(q.worst() < 0.005 && q.loading_force < 0.005, "{q:?}");
+    }
+}
+
+#[test]
+fn intervals_hold_the_constants_of_the_fit() {
+    let Outcome::Yielding { closed_form, .. } = &FITTED.outcome else {
+        panic!("the impacts yield");
+    };
+    let intervals = closed_form.intervals.as_ref().unwrap();
+    let [c, k, n_1, n_2] = closed_form.law.unloading().constants();
+    assert_eq!(intervals.len(), 7);
+    for (constant, [low, high]) in [c, k, n_1, n_2].iter().zip(&intervals[3..]) {
+        assert!(
+            low <= constant && constant <= high,
+            "{constant} not in {low}..{high}"
+        );
+    }
+}
+
+#[test]
+fn the_fit_is_the_same_on_one_thread_and_on_two() {
+    let on = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.unwrap().install(fitted)
+    };
+    assert_eq!(on(1), on(2));
+}
+
+#[test]
+fn nothing_yields_below_the_yield_speed_or_without_yield_strength() {
+    let mass = material(None).sphere_mass(RADIUS);
+    for material in [material(None), material(Some(20e9))] {
+        let law = Hertz::of(&material);
+        let impacts: Vec<Impact> = [1.0, 5.0].map(|v| impact(&law, v, mass)).to_vec();
+        let fit = fit(&case(material), &impacts).unwrap();
+        let Outcome::Elastic {
+            law: fitted,
+            quality,
+        } = fit.outcome
+        else {
+            panic!("nothing yields");
+        };
+        assert_eq!(fitted, law);
+        assert!(
+            quality
+                .iter()
+                .all(|q| q.worst() < 1e-9 && q.loading_force < 1e-5),
+            "{quality:?}"
+        );
+    }
+}
+
+#[test]
+fn impacts_that_did_not_rebound_are_left_out_and_named() {
+    let mut impacts = impacts();
+    impacts[2].summary.status = Status::NoRebound;
+    let fit = fit(&case(material(Some(1.25e9))), &impacts).unwrap();
+    assert_eq!(fit.skipped, [20.0]);
+    for i in &mut impacts {
+        i.summary.status = Status::Failed("energy grew".into());
+    }
+    let error = impactlaw::fit::fit(&case(material(Some(1.25e9))), &impacts).unwrap_err();
+    assert!(
+        error.to_string().contains("none of the impacts rebounded"),
+        "{error}"
+    );
+}
+
+#[test]
+fn the_fast_pulse_of_the_fit_is_the_rebound_of_the_law() {
+    let scale = Scale::of(&material(Some(1.25e9)), RADIUS).unwrap();
+    let speeds = [0.5, 5.0, 50.0];
+    for (law, velocity) in [known(), moving()]
+        .iter()
+        .flat_map(|l| speeds.map(|v| (l, v)))
+    {
+        let pulse = Pulse::of(law, scale.energy(velocity), 10.0).unwrap();
+        let hit = rebound(law, RADIUS, scale.mass, velocity);
+        for (fast, exact, unit) in [
+            (pulse.flattening, hit.max_displacement, scale.displacement),
+            (pulse.force, hit.max_force, scale.force),
+            (pulse.time, hit.contact_time, scale.time),
+            (pulse.restitution, hit.restitution, 1.0),
+        ] {
+            assert!(
+                (fast * unit / exact - 1.0).abs() < 1e-5,
+                "{fast} {exact} at {velocity} m/s"
+            );
+        }
+    }
+}
+
+#[test]
+fn impacts_just_above_the_yield_speed_are_fitted() {
+    let strong = material(Some(8e9));
+    let scale = Scale::of(&strong, RADIUS).unwrap();
+    let curve = SoftenedHertz::new(1.0, 12.0, 1.0).unwrap();
+    let unloading = Unloading::new(8.0, 0.6, -0.1, 7.0).unwrap();
+    let law = Elastoplastic::new(curve, unloading, scale.units(), 0.1).unwrap();
+    let v_y = strong.yield_point(RADIUS, 1.6).unwrap().velocity;
+    for factor in [1.01, 1.3, 2.0, 5.0] {
+        let impacts = [0.5 * v_y, factor * v_y].map(|v| impact(&law, v, scale.mass));
+        let fit = fit(&case(strong), &impacts).unwrap();
+        let Outcome::Yielding {
+            closed_form,
+            spline,
+        } = &fit.outcome
+        else {
+            panic!("the faster impact yields");
+        };
+        for q in closed_form.quality.iter().chain(&spline.quality) {
+            assert!(q.worst() < THRESHOLD, "{factor} V_y: {q:?}");
+        }
+    }
+}

@@ -1,0 +1,274 @@
+//! Comparison against the independent finite-element impacts of `tests/data/reference` (E/Y = 80, 10 and 50 m/s).
+
+use impactlaw::case::Case;
+use impactlaw::cli::{CompareArgs, FitArgs};
+use impactlaw::command::{Context, compare, fit};
+use impactlaw::compare::{Comparison, Row, SIMULATION};
+use impactlaw::contact::NormalLaw;
+use impactlaw::contact::rebound::{rebound, trajectory};
+use impactlaw::curve::{Curve, Impact, Sample, Status, Summary};
+use impactlaw::material::{Flow, Material};
+use impactlaw::theory::Theory;
+use impactlaw::theory::thornton::Thornton;
+use std::path::Path;
+
+const RADIUS: f64 = 250e-6;
+
+fn material() -> Material {
+    Material {
+        density: 8000.0,
+        young_modulus: 100e9,
+        poisson_ratio: 0.35,
+        flow: Some(Flow {
+            yield_strength: 1.25e9,
+            hardening_modulus: 0.0,
+        }),
+    }
+}
+
+fn summary(velocity: f64, figures: [f64; 5]) -> Summary {
+    let [
+        max_force_n,
+        max_displacement_m,
+        restitution,
+        residual_displacement_m,
+        contact_time_s,
+    ] = figures;
+    Summary {
+        velocity_m_s: velocity,
+        restitution,
+        max_force_n,
+        max_displacement_m,
+        max_centre_displacement_m: max_displacement_m,
+        residual_displacement_m,
+        contact_time_s,
+        compression_ratio: 0.0,
+        height_at_max_compression_ratio: 1.0,
+        equivalent_plastic_strain: 0.0,
+        plastic_work_ratio: 0.0,
+        energy_closure: 0.0,
+        points: 0,
+        steps: 0,
+        wall_s: 0.0,
+        status: Status::Ok,
+    }
+}
+
+fn sample(time_s: f64, displacement_m: f64, force_n: f64) -> Sample {
+    Sample {
+        time_s,
+        displacement_m,
+        centre_displacement_m: displacement_m,
+        force_n,
+        contact_radius_m: 0.0,
+        kinetic_j: 0.0,
+        elastic_j: 0.0,
+        plastic_j: 0.0,
+    }
+}
+
+/// A reference file: columns time, displacement of the centre of mass, of the centre, force, ...
+fn reference(name: &str, summary: Summary) -> Impact {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("tests/data/reference")
+        .join(name);
+    let mut reader = csv::Reader::from_path(path).unwrap();
+    let number = |row: &csv::StringRecord, i: usize| row[i].parse::<f64>().unwrap();
+    let samples = reader
+        .records()
+        .map(|row| row.unwrap())
+        .map(|row| sample(number(&row, 0), number(&row, 1), number(&row, 3)))
+        .collect();
+    Impact {
+        summary,
+        curve: Curve { samples },
+    }
+}
+
+fn references() -> Vec<Impact> {
+    vec![
+        reference(
+            "fe_impact_EY80_V10.csv",
+            summary(10.0, [14.72, 4.099e-6, 0.6425, 2.321e-6, 1.030e-6]),
+        ),
+        reference(
+            "fe_impact_EY80_V50.csv",
+            summary(50.0, [76.4, 17.51e-6, 0.3923, 13.87e-6, 0.809e-6]),
+        ),
+    ]
+}
+
+/// The impact a law makes, as if it had been simulated.
+fn made_by<L: NormalLaw>(law: &L, velocity: f64) -> Impact {
+    let mass = material().sphere_mass(RADIUS);
+    let hit = rebound(law, RADIUS, mass, velocity);
+    let path = trajectory(law, RADIUS, mass, velocity);
+    Impact {
+        summary: summary(
+            velocity,
+            [
+                hit.max_force,
+                hit.max_displacement,
+                hit.restitution,
+                hit.residual_displacement,
+                hit.contact_time,
+            ],
+        ),
+        curve: Curve {
+            samples: path
+                .iter()
+                .map(|s| sample(s.time, s.displacement, s.force))
+                .collect(),
+        },
+    }
+}
+
+fn row<'a>(rows: &'a [Row], law: &str, velocity: f64) -> &'a Row {
+    rows.iter()
+        .find(|row| row.law == law && row.velocity_m_s == velocity)
+        .unwrap()
+}
+
+#[test]
+fn a_law_compared_with_its_own_impact_has_no_error() {
+    let law = Thornton::of(&material(), 1.6).unwrap();
+    let mut comparison = Comparison::new(
+        &material(),
+        RADIUS,
+        &[made_by(&law, 10.0), made_by(&law, 50.0)],
+    );
+    comparison.add("itself", &law);
+    for velocity in [10.0, 50.0] {
+        let row = row(comparison.rows(), "itself", velocity);
+        assert!(row.errors().unwrap().rms() < 1e-12);
+        assert!(row.force_rmse_rel.unwrap() < 1e-9);
+    }
+}
+
+#[test]
+fn a_constant_force_gap_is_its_own_misfit() {
+    let law = Thornton::of(&material(), 1.6).unwrap();
+    let mut impact = made_by(&law, 10.0);
+    for sample in &mut impact.curve.samples {
+        sample.force_n += 0.1 * impact.summary.max_force_n;
+    }
+    let mut comparison = Comparison::new(&material(), RADIUS, &[impact]);
+    comparison.add("itself", &law);
+    let row = row(comparison.rows(), "itself", 10.0);
+    for misfit in [
+        row.force_rmse_rel,
+        row.force_rmse_loading_rel,
+        row.force_rmse_unloading_rel,
+    ] {
+        assert!((misfit.unwrap() - 0.1).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn theories_stand_to_the_finite_element_impacts_as_known() {
+    let mut comparison = Comparison::new(&material(), RADIUS, &references());
+    comparison.add_theories();
+    let rows = comparison.rows();
+    assert_eq!(rows.len(), 2 * (1 + Theory::ALL.len()));
+    assert!(
+        rows[..2]
+            .iter()
+            .all(|row| row.law == SIMULATION && row.errors().is_none())
+    );
+    for velocity in [10.0, 50.0] {
+        let of = |law| row(rows, law, velocity);
+        // one truncated pressure cannot carry full plasticity: far too little force
+        assert!(of("thornton").max_force_error_rel.unwrap() < -0.3);
+        // no plasticity: too much force, and e = 1
+        assert!(of("hertz").max_force_error_rel.unwrap() > 0.15);
+        // the finite-element fits follow the force within a tenth of F*
+        assert!(of("jackson-green").force_rmse_loading_rel.unwrap() < 0.1);
+        assert!(of("jackson-green").max_force_error_rel.unwrap().abs() < 0.05);
+        assert!(of("hertz").force_rmse_rel > of("jackson-green").force_rmse_rel);
+    }
+}
+
+#[test]
+fn files_hold_every_row_and_the_table_names_what_was_left_out() {
+    let mut impacts = references();
+    impacts[1].summary.status = Status::NoRebound;
+    let mut comparison = Comparison::new(&material(), RADIUS, &impacts);
+    comparison.add_theories();
+    let folder = tempfile::tempdir().unwrap();
+    comparison.write(folder.path(), "made by a test").unwrap();
+
+    let text = std::fs::read_to_string(folder.path().join("compare.csv")).unwrap();
+    let header = "law,velocity_m_s,max_force_N,max_displacement_m,restitution,contact_time_s,force_rmse_rel,";
+    assert!(text.lines().nth(1).unwrap().starts_with(header));
+    let mut reader = csv::ReaderBuilder::new()
+        .comment(Some(b'#'))
+        .from_reader(text.as_bytes());
+    let rows: Vec<Row> = reader.deserialize().map(|row| row.unwrap()).collect();
+    assert_eq!(rows, comparison.rows());
+
+    let table = std::fs::read_to_string(folder.path().join("compare.md")).unwrap();
+    assert!(table.contains("Left out (no rebound): 50 m/s."), "{table}");
+    let position = |law: &str| table.find(&format!("\n| {law}")).unwrap();
+    assert!(
+        position("jackson-green") < position("thornton "),
+        "best first\n{table}"
+    );
+}
+
+#[test]
+fn an_elastic_body_is_compared_with_hertz_alone() {
+    let mut elastic = material();
+    elastic.flow = None;
+    let mut comparison = Comparison::new(&elastic, RADIUS, &references());
+    comparison.add_theories();
+    let laws: Vec<_> = comparison
+        .rows()
+        .iter()
+        .map(|row| row.law.as_str())
+        .collect();
+    assert_eq!(laws, ["mpm", "mpm", "hertz", "hertz"]);
+    assert!(!comparison.markdown().contains("thornton"));
+}
+
+#[test]
+fn the_command_goes_from_impact_folders_and_a_law_file_to_both_files() {
+    let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/thesis-4-4.toml");
+    assert_eq!(Case::read(&case).unwrap().material, material());
+    let folder = tempfile::tempdir().unwrap();
+    let impacts = folder.path().to_owned();
+    for impact in references() {
+        let name = format!("impact_V{}", impact.summary.velocity_m_s);
+        impact
+            .write(&impacts.join(name), "finite elements")
+            .unwrap();
+    }
+    let context = Context {
+        command: "impactlaw compare".to_owned(),
+        quiet: true,
+    };
+    let fit_args = FitArgs {
+        case: case.clone(),
+        impacts: Some(impacts.clone()),
+        out: None,
+    };
+    fit::run(&fit_args, &context).unwrap();
+    let args = CompareArgs {
+        case,
+        law: None,
+        impacts: Some(impacts.clone()),
+        out: None,
+    };
+    compare::run(&args, &context).unwrap();
+
+    let table = std::fs::read_to_string(impacts.join("compare.md")).unwrap();
+    let first = table
+        .lines()
+        .find(|line| line.starts_with("| fitted") || line.starts_with("| jackson"));
+    assert!(
+        first.unwrap().starts_with("| fitted"),
+        "the fitted law is best\n{table}"
+    );
+    let csv = std::fs::read_to_string(impacts.join("compare.csv")).unwrap();
+    let laws = Theory::ALL.len() + 2;
+    assert_eq!(csv.lines().count(), 2 + 2 * (1 + laws), "{csv}");
+}
