@@ -6,6 +6,7 @@ use impactlaw::contact::loading::{Loading, SOFTENING_LIMIT, SoftenedHertz};
 use impactlaw::contact::spline::{Knot, SplineLoading};
 use impactlaw::contact::unloading::Unloading;
 use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
 
 const UNITS: YieldUnits = YieldUnits {
     flattening: 7.6e-4,
@@ -190,7 +191,7 @@ fn check_stiffness<L: Loading>(
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, rng_seed: RngSeed::Fixed(1), ..ProptestConfig::default() })]
 
     #[test]
     fn closed_form_loading_is_monotone_and_joins_hertz(law in closed_forms()) {

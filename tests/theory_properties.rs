@@ -7,6 +7,7 @@ use impactlaw::material::{Flow, Material};
 use impactlaw::theory::Theory;
 use impactlaw::theory::hertz::Hertz;
 use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
 
 fn material(stiffness_ratio: f64, poisson_ratio: f64) -> Material {
     Material {
@@ -152,7 +153,7 @@ fn smooth(material: &Material, x: f64) -> bool {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, rng_seed: RngSeed::Fixed(1), ..ProptestConfig::default() })]
 
     #[test]
     fn force_is_never_tensile_and_energy_is_the_area_below_unloading(

@@ -11,6 +11,9 @@ const ELASTIC_TO: f64 = 1.9;
 const HARDNESS_RATIO: f64 = 2.84;
 /// Largest a/R of the finite-element runs.
 const LARGEST_CONTACT_RADIUS: f64 = 0.41;
+/// Largest share of the flattening that stays. The published form passes one near $w = 10^4$ (E/Y 600 at a/R = 0.4), where a
+/// sphere would come back deeper than it was pressed.
+const LARGEST_RESIDUE: f64 = 0.999;
 /// Speed over critical speed up to which the restitution formula was fitted.
 const FASTEST: f64 = 1000.0;
 
@@ -33,7 +36,8 @@ const FASTEST: f64 = 1000.0;
 ///
 /// The two loading branches do not meet exactly: at $w = 1.9$ the force jumps by +2.6 % ($\nu = 0.2$) to -1.5 %
 /// ($\nu = 0.4$). Hertz holds at 1.9 itself. Between $w = 1$ and 1.9 loading is Hertzian and unloading already
-/// leaves a residual displacement, as published.
+/// leaves a residual displacement, as published. From $w \approx 10^4$ on the published residual displacement would exceed
+/// the largest one; it is held at 0.999 of it there, so that the law stays usable, and its restitution means nothing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JacksonGreen {
     elastic: Hertz,
@@ -126,7 +130,8 @@ impl Envelope for JacksonGreen {
         if w <= 1.0 {
             return Unloading::hertzian(0.0);
         }
-        Unloading::hertzian(peak * 1.02 * (1.0 - ((w + 5.9) / 6.9).powf(-0.54)))
+        let residue = 1.02 * (1.0 - ((w + 5.9) / 6.9).powf(-0.54));
+        Unloading::hertzian(peak * residue.min(LARGEST_RESIDUE))
     }
 
     fn supported_to(&self) -> f64 {
