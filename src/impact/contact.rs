@@ -61,6 +61,84 @@ pub struct Touch {
     pub residual: f64,
 }
 
+/// What a run asks of its contact with the wall.
+pub trait Wall<S: Space>: Clone {
+    /// Points that could touch within `horizon`, if nothing moves faster than `speed`; call now and then.
+    fn refresh(&mut self, u: &[S::Vector], speed: f64, horizon: f64);
+    /// Solve one step: `old` are the velocities before the forces, `v` the free velocities, corrected in place.
+    fn solve(
+        &mut self,
+        dt: f64,
+        u: &[S::Vector],
+        old: &[S::Vector],
+        v: &mut [S::Vector],
+        recip_mass: &[S::Vector],
+    ) -> Touch;
+    /// Deformed surface points of the meridian, pole to pole: distance from the axis and height above the wall.
+    fn outline(&self, u: &[S::Vector]) -> Vec<(f64, f64)>;
+}
+
+impl<S: Space, const N: usize> Wall<S> for Contact<S, N> {
+    fn refresh(&mut self, u: &[S::Vector], speed: f64, horizon: f64) {
+        self.candidates.clear();
+        for c in 0..self.points.len() {
+            let gap = self.points[c].height + self.at(c, u, S::NORMAL);
+            if gap < speed * horizon || self.points[c].active {
+                self.candidates.push(c);
+            }
+        }
+    }
+
+    fn solve(
+        &mut self,
+        dt: f64,
+        u: &[S::Vector],
+        old: &[S::Vector],
+        v: &mut [S::Vector],
+        recip_mass: &[S::Vector],
+    ) -> Touch {
+        let ratio = if self.time > 0.0 { dt / self.time } else { 1.0 };
+        self.time = dt;
+        let candidates = std::mem::take(&mut self.candidates);
+        let mut any = false;
+        for &c in &candidates {
+            let gap = self.points[c].height + self.at(c, u, S::NORMAL);
+            let free = gap / dt + self.at(c, v, S::NORMAL);
+            let p = &mut self.points[c];
+            p.free = free;
+            p.impulse *= ratio;
+            any |= free < 0.0;
+            p.active |= free < 0.0 && p.impulse == 0.0;
+        }
+        let mut touch = Touch::default();
+        if any {
+            if !self.close_active_set(&candidates) {
+                touch.residual = self.relax(&candidates);
+            }
+            self.apply(&candidates, u, old, v, recip_mass, &mut touch);
+        } else {
+            for &c in &candidates {
+                self.points[c].impulse = 0.0;
+                self.points[c].active = false;
+            }
+        }
+        self.candidates = candidates;
+        touch
+    }
+
+    fn outline(&self, u: &[S::Vector]) -> Vec<(f64, f64)> {
+        (0..self.points.len())
+            .map(|c| {
+                let p = &self.points[c];
+                (
+                    p.radius + self.at(c, u, 0),
+                    p.height + self.at(c, u, S::NORMAL),
+                )
+            })
+            .collect()
+    }
+}
+
 impl<S: Space, const N: usize> Contact<S, N> {
     /// No points yet; `tolerance` is the speed below which a violation counts as solved.
     #[must_use]
@@ -96,20 +174,6 @@ impl<S: Space, const N: usize> Contact<S, N> {
     #[must_use]
     pub fn count(&self) -> usize {
         self.points.len()
-    }
-
-    /// Deformed surface points, in order along the surface: distance from the axis and height above the wall.
-    #[must_use]
-    pub fn outline(&self, u: &[S::Vector]) -> Vec<(f64, f64)> {
-        (0..self.points.len())
-            .map(|c| {
-                let p = &self.points[c];
-                (
-                    p.radius + self.at(c, u, 0),
-                    p.height + self.at(c, u, S::NORMAL),
-                )
-            })
-            .collect()
     }
 
     /// Compute the coupling W from the nodes' reciprocal masses; call once all points are there.
@@ -152,55 +216,6 @@ impl<S: Space, const N: usize> Contact<S, N> {
             sum += p.values[a] * field[p.node + self.offsets[a]].as_ref()[axis];
         }
         sum
-    }
-
-    /// Points that could touch within `horizon`, if nothing moves faster than `speed`; call now and then.
-    pub fn refresh(&mut self, u: &[S::Vector], speed: f64, horizon: f64) {
-        self.candidates.clear();
-        for c in 0..self.points.len() {
-            let gap = self.points[c].height + self.at(c, u, S::NORMAL);
-            if gap < speed * horizon || self.points[c].active {
-                self.candidates.push(c);
-            }
-        }
-    }
-
-    /// Solve one step: `old` are the velocities before the forces, `v` the free velocities, corrected in place.
-    pub fn solve(
-        &mut self,
-        dt: f64,
-        u: &[S::Vector],
-        old: &[S::Vector],
-        v: &mut [S::Vector],
-        recip_mass: &[S::Vector],
-    ) -> Touch {
-        let ratio = if self.time > 0.0 { dt / self.time } else { 1.0 };
-        self.time = dt;
-        let candidates = std::mem::take(&mut self.candidates);
-        let mut any = false;
-        for &c in &candidates {
-            let gap = self.points[c].height + self.at(c, u, S::NORMAL);
-            let free = gap / dt + self.at(c, v, S::NORMAL);
-            let p = &mut self.points[c];
-            p.free = free;
-            p.impulse *= ratio;
-            any |= free < 0.0;
-            p.active |= free < 0.0 && p.impulse == 0.0;
-        }
-        let mut touch = Touch::default();
-        if any {
-            if !self.close_active_set(&candidates) {
-                touch.residual = self.relax(&candidates);
-            }
-            self.apply(&candidates, u, old, v, recip_mass, &mut touch);
-        } else {
-            for &c in &candidates {
-                self.points[c].impulse = 0.0;
-                self.points[c].active = false;
-            }
-        }
-        self.candidates = candidates;
-        touch
     }
 
     /// Speed of point `c` after the present impulses, as a gap rate.

@@ -17,7 +17,8 @@ use crate::material::flow::{FlowStress, LinearHardening, PerfectlyPlastic};
 use crate::material::stress::{Constitutive, Elastic, J2, Moduli};
 use crate::material::{Flow, Material};
 use crate::plan::Plan;
-use crate::space::Axisymmetric;
+use crate::space::{Axisymmetric, Space};
+use contact::Wall;
 use kernel::Purpose;
 use record::{Frame, Record, Snapshot};
 use setup::Model;
@@ -105,15 +106,15 @@ fn run_degree<M: Constitutive<Axisymmetric>>(material: M, plan: &Plan, speed: f6
 }
 
 /// A run in progress.
-struct Run<'a, M: Constitutive<Axisymmetric>, const N: usize> {
-    model: Model<M, N>,
+struct Run<'a, S: Space, M: Constitutive<S>, W: Wall<S>, const N: usize> {
+    model: Model<S, M, W, N>,
     plan: &'a Plan,
     speed: f64,
-    u: Vec<[f64; 2]>,
-    v: Vec<[f64; 2]>,
-    old: Vec<[f64; 2]>,
-    force: Vec<[f64; 2]>,
-    limit: StabilityLimit<Axisymmetric>,
+    u: Vec<S::Vector>,
+    v: Vec<S::Vector>,
+    old: Vec<S::Vector>,
+    force: Vec<S::Vector>,
+    limit: StabilityLimit<S>,
     dt: f64,
     time: f64,
     step: u64,
@@ -130,9 +131,11 @@ struct Run<'a, M: Constitutive<Axisymmetric>, const N: usize> {
     failure: Option<String>,
 }
 
-impl<'a, M: Constitutive<Axisymmetric>, const N: usize> Run<'a, M, N> {
-    fn new(model: Model<M, N>, plan: &'a Plan, speed: f64) -> Self {
+impl<'a, S: Space, M: Constitutive<S>, W: Wall<S>, const N: usize> Run<'a, S, M, W, N> {
+    fn new(model: Model<S, M, W, N>, plan: &'a Plan, speed: f64) -> Self {
         let nodes = model.mass.len();
+        let mut incident = S::Vector::default();
+        incident.as_mut()[S::NORMAL] = -speed;
         let mass = model.mass.iter().sum::<f64>();
         let first = Frame {
             kinetic: 0.5 * mass * speed * speed,
@@ -141,10 +144,10 @@ impl<'a, M: Constitutive<Axisymmetric>, const N: usize> Run<'a, M, N> {
         };
         Run {
             limit: StabilityLimit::new(nodes),
-            u: vec![[0.0; 2]; nodes],
-            v: vec![[0.0, -speed]; nodes],
-            old: vec![[0.0; 2]; nodes],
-            force: vec![[0.0; 2]; nodes],
+            u: vec![S::Vector::default(); nodes],
+            v: vec![incident; nodes],
+            old: vec![S::Vector::default(); nodes],
+            force: vec![S::Vector::default(); nodes],
             model,
             plan,
             speed,
@@ -185,7 +188,7 @@ impl<'a, M: Constitutive<Axisymmetric>, const N: usize> Run<'a, M, N> {
     /// Rebounded and rung out, or out of time.
     fn is_over(&self) -> bool {
         let rung = self.time > self.contact_end + self.plan.ring_time;
-        (rung && self.mean(&self.v, 1) > 0.0) || self.time > self.plan.longest_time
+        (rung && self.mean(&self.v, S::NORMAL) > 0.0) || self.time > self.plan.longest_time
     }
 
     /// Stable time step and contact candidates of the present configuration.
@@ -225,8 +228,10 @@ impl<'a, M: Constitutive<Axisymmetric>, const N: usize> Run<'a, M, N> {
         let dt = self.dt;
         for n in 0..self.u.len() {
             self.old[n] = self.v[n];
-            for k in 0..2 {
-                self.v[n][k] += dt * self.force[n][k] * self.model.recip_mass[n][k];
+            let (force, weight) = (self.force[n], self.model.recip_mass[n]);
+            let components = force.as_ref().iter().zip(weight.as_ref());
+            for (v, (f, w)) in self.v[n].as_mut().iter_mut().zip(components) {
+                *v += dt * f * w;
             }
         }
         let touch =
@@ -243,19 +248,20 @@ impl<'a, M: Constitutive<Axisymmetric>, const N: usize> Run<'a, M, N> {
             self.record(sweep.elastic, touch.impulse);
         }
         for (u, v) in self.u.iter_mut().zip(&self.v) {
-            u[0] += dt * v[0];
-            u[1] += dt * v[1];
+            for (u, v) in u.as_mut().iter_mut().zip(v.as_ref()) {
+                *u += dt * v;
+            }
         }
         self.time += dt;
         self.step += 1;
     }
 
     /// Mass average of component `axis` of a nodal field.
-    fn mean(&self, field: &[[f64; 2]], axis: usize) -> f64 {
+    fn mean(&self, field: &[S::Vector], axis: usize) -> f64 {
         let sum: f64 = field
             .iter()
             .zip(&self.model.mass)
-            .map(|(x, m)| m * x[axis])
+            .map(|(x, m)| m * x.as_ref()[axis])
             .sum();
         sum / self.mass
     }
@@ -263,7 +269,13 @@ impl<'a, M: Constitutive<Axisymmetric>, const N: usize> Run<'a, M, N> {
     /// Keep a frame at time n (`impulse` of the step that is under way belongs half to each side).
     fn record(&mut self, elastic: f64, impulse: f64) {
         let kinetic: f64 = (self.old.iter().zip(&self.v).zip(&self.model.mass))
-            .map(|((a, b), m)| 0.5 * m * (a[0] * b[0] + a[1] * b[1]))
+            .map(|((a, b), m)| {
+                let mut product = 0.0;
+                for (a, b) in a.as_ref().iter().zip(b.as_ref()) {
+                    product += a * b;
+                }
+                0.5 * m * product
+            })
             .sum();
         let incident = self.frames[0].kinetic;
         let balance = kinetic + elastic + self.plastic - self.contact_work - incident;
@@ -275,12 +287,15 @@ impl<'a, M: Constitutive<Axisymmetric>, const N: usize> Run<'a, M, N> {
         }
         self.closure = self.closure.max(closure);
         let along = |marker: &[(usize, f64)]| -> f64 {
-            marker.iter().map(|(n, w)| w * self.u[*n][1]).sum()
+            marker
+                .iter()
+                .map(|(n, w)| w * self.u[*n].as_ref()[S::NORMAL])
+                .sum()
         };
         let [south, centre, north] = &self.model.markers;
         let frame = Frame {
             time: self.time,
-            displacement: -self.mean(&self.u, 1),
+            displacement: -self.mean(&self.u, S::NORMAL),
             centre_displacement: -along(centre),
             impulse: self.impulse - 0.5 * impulse,
             contact_radius: self.contact_radius,
@@ -291,7 +306,7 @@ impl<'a, M: Constitutive<Axisymmetric>, const N: usize> Run<'a, M, N> {
         };
         self.contact_radius = 0.0;
         self.frames.push(frame);
-        if self.compressed.is_none() && self.mean(&self.v, 1) >= 0.0 {
+        if self.compressed.is_none() && self.mean(&self.v, S::NORMAL) >= 0.0 {
             self.compressed = Some(self.snapshot());
         }
     }
@@ -305,7 +320,7 @@ impl<'a, M: Constitutive<Axisymmetric>, const N: usize> Run<'a, M, N> {
     }
 
     fn into_record(self) -> Record {
-        let exit_speed = self.mean(&self.v, 1);
+        let exit_speed = self.mean(&self.v, S::NORMAL);
         let rebound = self.snapshot();
         let status = match self.failure {
             Some(reason) => Status::Failed(format!("step {}: {reason}", self.step)),

@@ -2,11 +2,11 @@
 
 use crate::impact::basis::Direction;
 use crate::impact::body::{SurfacePoint, clip_cell, meridian};
-use crate::impact::contact::Contact;
+use crate::impact::contact::{Contact, Wall};
 use crate::impact::kernel::{Point, Points};
 use crate::material::stress::Constitutive;
 use crate::plan::{Grid, graded};
-use crate::space::Axisymmetric;
+use crate::space::{Axisymmetric, Space};
 use std::f64::consts::PI;
 
 /// Distance of surface points over the size of their cell. Halving it from 1 takes most of the staircase out of F as the
@@ -15,15 +15,15 @@ const CONTACT_SPACING: f64 = 0.5;
 
 /// A body on its grid, ready to run; lengths in R, density and Young's modulus one.
 #[derive(Clone)]
-pub struct Model<M: Constitutive<Axisymmetric>, const N: usize> {
+pub struct Model<S: Space, M: Constitutive<S>, W: Wall<S>, const N: usize> {
     /// Material points.
-    pub points: Points<Axisymmetric, M, N>,
-    /// Surface points.
-    pub contact: Contact<Axisymmetric, N>,
+    pub points: Points<S, M, N>,
+    /// Contact of the surface points with the wall.
+    pub contact: W,
     /// Lumped nodal masses.
     pub mass: Vec<f64>,
     /// Reciprocal masses by component; 0 where the component is fixed (radial on the axis) or nothing is there.
-    pub recip_mass: Vec<[f64; 2]>,
+    pub recip_mass: Vec<S::Vector>,
     /// South pole, centre and north pole of the sphere as interpolations of the nodes.
     pub markers: [Vec<(usize, f64)>; 3],
 }
@@ -79,7 +79,7 @@ pub fn build<M: Constitutive<Axisymmetric>, const P: usize, const N: usize>(
     grid: &Grid,
     material: M,
     contact_tolerance: f64,
-) -> Model<M, N> {
+) -> Model<Axisymmetric, M, Contact<Axisymmetric, N>, N> {
     const { assert!(N == (P + 1) * (P + 1)) };
     let section = Section::<P>::new(grid);
     let offsets: [usize; N] = std::array::from_fn(|n| section.node(n % (P + 1), n / (P + 1)));
@@ -163,6 +163,8 @@ mod tests {
     use crate::impact::kernel::Purpose;
     use crate::material::stress::{Elastic, Moduli};
 
+    type Sphere = Model<Axisymmetric, Elastic, Contact<Axisymmetric, 9>, 9>;
+
     fn grid() -> Grid {
         Grid {
             degree: 2,
@@ -176,13 +178,13 @@ mod tests {
         }
     }
 
-    fn model() -> Model<Elastic, 9> {
+    fn model() -> Sphere {
         let moduli = Moduli::new(1.0, 0.3);
         build::<Elastic, 2, 9>(&grid(), Elastic { moduli }, 1e-9)
     }
 
     /// A smooth displacement field that keeps the axis in place.
-    fn field(model: &Model<Elastic, 9>, size: f64) -> Vec<[f64; 2]> {
+    fn field(model: &Sphere, size: f64) -> Vec<[f64; 2]> {
         (0..model.mass.len())
             .map(|n| {
                 let fixed = model.recip_mass[n][0] == 0.0;
