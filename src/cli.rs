@@ -40,6 +40,8 @@ pub enum Verb {
     Bed(BedArgs),
     /// Run a grid of cases, equal dimensionless groups once: `results.csv`. Finished runs are kept and not repeated.
     Study(StudyArgs),
+    /// Show what accuracy costs: ladders over grid, points, time step and scheme; errors against wall time.
+    Cost(CostArgs),
     /// Work with a law file.
     Law {
         /// What to do with it.
@@ -163,6 +165,28 @@ pub struct StudyArgs {
     /// Study file.
     pub study: PathBuf,
     /// Output folder; by default `out/` and the study's name.
+    #[arg(short, long)]
+    pub out: Option<PathBuf>,
+}
+
+/// Arguments of `cost`.
+#[derive(Debug, Args)]
+pub struct CostArgs {
+    /// Case file.
+    pub case: PathBuf,
+    /// Speeds instead of the case's fastest, e.g. `--velocity "10 m/s"`.
+    #[arg(long)]
+    pub velocity: Vec<String>,
+    /// Coarse ladders only: less than a minute.
+    #[arg(long)]
+    pub quick: bool,
+    /// Ladders to run beside the reference, by the beginning of their names, e.g. `--ladder cells` (default: all).
+    #[arg(long)]
+    pub ladder: Vec<String>,
+    /// Leave out what is predicted to take longer than this.
+    #[arg(long, default_value = "2 min")]
+    pub longest: String,
+    /// Output folder (default: `out/<case name>`); files go to `cost` in it, and finished runs are kept there.
     #[arg(short, long)]
     pub out: Option<PathBuf>,
 }

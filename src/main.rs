@@ -31,6 +31,7 @@ fn dispatch(cli: &Cli) -> Result<Verdict> {
         Verb::Theory(args) => command::theory::run(args).map(Verdict::from),
         Verb::Bed(args) => command::bed::run(args, context),
         Verb::Study(args) => command::study::run(args, context),
+        Verb::Cost(args) => command::cost::run(args, context),
         Verb::Law { verb } => command::law::run(verb, context),
     }
 }

@@ -5,6 +5,7 @@
 
 use crate::case::Case;
 use crate::material::{Material, YIELD_PRESSURE_RATIO};
+use crate::scheme::{Layout, Reference, Scheme, TimeStep, Transfer};
 use crate::unit::{engineering, significant};
 use std::f64::consts::PI;
 
@@ -64,6 +65,8 @@ pub struct Plan {
     pub plastic: bool,
     /// Grid.
     pub grid: Grid,
+    /// Method; another than the default only to be compared.
+    pub scheme: Scheme,
     /// Time after loss of contact over which the residual vibration is averaged, R/c0.
     pub ring_time: f64,
     /// Time at which an impact without rebound is given up, R/c0.
@@ -116,19 +119,44 @@ pub fn plan(case: &Case, velocity: f64) -> Plan {
     let (effects, plastic) = effects(case, velocity);
     let grid = grid(&estimate, case.tolerance);
     let ring_time = 1.5 * fundamental_period(material.poisson_ratio);
-    let (points, steps) = predict(&grid, material, &estimate, ring_time);
-    Plan {
+    let plan = Plan {
         velocity,
         estimate,
         effects,
         plastic,
         grid,
+        scheme: Scheme::default(),
         ring_time,
         longest_time: 6.0 * estimate.contact_time + 4.0 * ring_time,
-        points,
-        steps,
-        seconds: points as f64 * steps as f64 / THROUGHPUT,
-    }
+        points: 0,
+        steps: 0,
+        seconds: 0.0,
+    };
+    with_prediction(plan, material)
+}
+
+/// The plan with points, steps and seconds predicted from its grid and scheme.
+#[must_use]
+pub fn with_prediction(mut plan: Plan, material: &Material) -> Plan {
+    let (points, steps) = predict(&plan, material);
+    plan.points = points;
+    plan.steps = steps;
+    plan.seconds = points as f64 * steps as f64 / throughput(&plan);
+    plan
+}
+
+/// Point-steps a second of a plan's degree and scheme.
+fn throughput(plan: &Plan) -> f64 {
+    let degree = [2.5, 1.0, 0.45][plan.grid.degree.clamp(1, 3) - 1];
+    let transfer = match plan.scheme.transfer {
+        Transfer::Persistent => 1.0,
+        _ => 0.5,
+    };
+    let reference = match plan.scheme.reference {
+        Reference::Initial => 1.0,
+        Reference::Present => 0.1,
+    };
+    THROUGHPUT * degree * transfer * reference
 }
 
 /// Cells per contact radius for a relative tolerance on F*, delta* and e: errors fall with the square of the cell size.
@@ -212,20 +240,26 @@ pub fn fundamental_period(poisson_ratio: f64) -> f64 {
     2.0 * PI / 2.64 * (2.0 * (1.0 + poisson_ratio)).sqrt()
 }
 
-/// Points and steps of a run, from the grid alone.
-fn predict(grid: &Grid, material: &Material, estimate: &Estimate, ring: f64) -> (usize, u64) {
+/// Points and steps of a run, from grid and scheme alone.
+fn predict(plan: &Plan, material: &Material) -> (usize, u64) {
+    let grid = &plan.grid;
     let count =
         |length: f64, to: f64| graded(length, grid.fine, to, grid.growth, grid.coarse).len();
-    let cells = count(1.0, grid.fine_width) * count(2.0, grid.fine_depth);
-    let per_cell = grid.points_per_direction.pow(2) as f64;
-    let points = 0.8 * cells as f64 * per_cell;
+    let points = match plan.scheme.layout {
+        Layout::Fitted => {
+            let cells = count(1.0, grid.fine_width) * count(2.0, grid.fine_depth);
+            0.8 * (cells * grid.points_per_direction.pow(2)) as f64
+        }
+        Layout::Lattice(per_diameter) => PI / 8.0 * per_diameter * per_diameter,
+    };
     let nu = material.poisson_ratio;
     let speed = ((1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu))).sqrt();
-    let dt = 0.65 * grid.dt_share * grid.fine / speed;
-    (
-        points as usize,
-        ((estimate.contact_time + ring) / dt) as u64,
-    )
+    let dt = match plan.scheme.time_step {
+        TimeStep::Stable => 0.65 * grid.dt_share * grid.fine / speed,
+        TimeStep::Fixed(dt) => dt,
+    };
+    let duration = plan.estimate.contact_time + plan.ring_time;
+    (points as usize, (duration / dt) as u64)
 }
 
 /// Breakpoints of a direction: uniform cells of size `fine` over `[0, fine_to]`, then each at most `growth` times the

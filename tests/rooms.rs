@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 const ORDER: [&[&str]; 16] = [
     &["error"],
     &["files", "unit", "lanes"],
-    &["document", "space"],
+    &["document", "scheme", "space"],
     &["material"],
     &["case", "contact", "curve"],
     &["plan", "study"],
@@ -15,7 +15,7 @@ const ORDER: [&[&str]; 16] = [
     &["theory"],
     &["fit"],
     &["law"],
-    &["compare"],
+    &["compare", "cost"],
     &["bed"],
     &["export"],
     &["report"],

@@ -2,6 +2,7 @@
 
 pub mod bed;
 pub mod compare;
+pub mod cost;
 pub mod diagnostic;
 pub mod fit;
 pub mod impact;

@@ -143,6 +143,28 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
         self.cold.len()
     }
 
+    /// First node and unpacked form of every point.
+    pub fn unpacked(&self) -> &[(u32, Point<N>)] {
+        &self.cold
+    }
+
+    /// Way from a cell's first node to its others.
+    pub fn offsets(&self) -> [usize; N] {
+        self.offsets
+    }
+
+    /// Memory of what the loop works on, bytes.
+    pub fn bytes(&self) -> usize {
+        fn size<T>(column: &[T]) -> usize {
+            std::mem::size_of_val(column)
+        }
+        size(&self.cells)
+            + size(&self.weights)
+            + size(&self.volumes)
+            + size(&self.states)
+            + size(&self.scratch)
+    }
+
     /// Sum over the points of reference volume times accumulated plastic strain.
     pub fn plastic_strain_volume(&self) -> f64 {
         self.states

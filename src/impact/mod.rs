@@ -8,7 +8,9 @@ pub mod basis;
 pub mod body;
 pub mod contact;
 pub mod kernel;
+pub mod lattice;
 pub mod record;
+pub mod remap;
 pub mod setup;
 pub mod timestep;
 
@@ -17,10 +19,12 @@ use crate::material::flow::{FlowStress, LinearHardening, PerfectlyPlastic};
 use crate::material::stress::{Constitutive, Elastic, J2, Moduli};
 use crate::material::{Flow, Material};
 use crate::plan::Plan;
+use crate::scheme::{TimeStep, Transfer};
 use crate::space::{Axisymmetric, Space};
 use contact::Wall;
 use kernel::Purpose;
 use record::{Frame, Record, Snapshot};
+use remap::{Apic, Blend, Carriers, Remap, StepEnd};
 use setup::Model;
 use timestep::StabilityLimit;
 
@@ -44,6 +48,10 @@ pub struct Simulated {
     pub compressed: ParticleMap,
     /// The particle after its rebound.
     pub rebound: ParticleMap,
+    /// Memory of points and nodes, bytes.
+    pub memory_bytes: usize,
+    /// Energy lost in transfers between points and grid over the incident kinetic energy; 0 where there are none.
+    pub transfer_loss: f64,
 }
 
 /// Simulate one impact as planned.
@@ -63,6 +71,8 @@ pub fn simulate(material: &Material, radius: f64, plan: &Plan) -> Simulated {
         impact: record.impact(material, radius, plan.velocity, seconds),
         compressed: record.compressed.map(material, radius),
         rebound: record.rebound.map(material, radius),
+        memory_bytes: record.memory_bytes,
+        transfer_loss: record.transfer_loss,
     }
 }
 
@@ -82,32 +92,60 @@ fn run_plastic(moduli: Moduli, flow: &Flow, unit: f64, plan: &Plan, speed: f64) 
 
 /// The spline degree that the plan calls for.
 fn run_degree<M: Constitutive<Axisymmetric>>(material: M, plan: &Plan, speed: f64) -> Record {
+    let (grid, layout) = (&plan.grid, plan.scheme.layout);
     let tolerance = CONTACT_TOLERANCE * speed;
-    match plan.grid.degree {
-        1 => Run::new(
-            setup::build::<M, 1, 4>(&plan.grid, material, tolerance),
+    match grid.degree {
+        1 => run_transfer(
+            setup::build::<M, 1, 4>(grid, layout, material, tolerance),
             plan,
             speed,
-        )
-        .finish(),
-        2 => Run::new(
-            setup::build::<M, 2, 9>(&plan.grid, material, tolerance),
+        ),
+        2 => run_transfer(
+            setup::build::<M, 2, 9>(grid, layout, material, tolerance),
             plan,
             speed,
-        )
-        .finish(),
-        _ => Run::new(
-            setup::build::<M, 3, 16>(&plan.grid, material, tolerance),
+        ),
+        _ => run_transfer(
+            setup::build::<M, 3, 16>(grid, layout, material, tolerance),
             plan,
             speed,
-        )
-        .finish(),
+        ),
+    }
+}
+
+/// The transfer of velocity that the plan calls for.
+fn run_transfer<M, W, const N: usize>(
+    model: Model<Axisymmetric, M, W, N>,
+    plan: &Plan,
+    speed: f64,
+) -> Record
+where
+    M: Constitutive<Axisymmetric>,
+    W: Wall<Axisymmetric>,
+{
+    let points = model.points.unpacked();
+    let carriers = || {
+        let start = [0.0, -speed];
+        Carriers::new(points, model.points.offsets(), model.mass.len(), start)
+    };
+    match plan.scheme.transfer {
+        Transfer::Persistent => Run::new(model, (), plan, speed).finish(),
+        Transfer::Blend(flip) => {
+            let carriers = carriers();
+            Run::new(model, Blend { carriers, flip }, plan, speed).finish()
+        }
+        Transfer::Apic => {
+            let apic = Apic::new(carriers(), points, &setup::places(&plan.grid));
+            Run::new(model, apic, plan, speed).finish()
+        }
     }
 }
 
 /// A run in progress.
-struct Run<'a, S: Space, M: Constitutive<S>, W: Wall<S>, const N: usize> {
+struct Run<'a, S: Space, M: Constitutive<S>, W: Wall<S>, T: Remap<S::Vector>, const N: usize> {
     model: Model<S, M, W, N>,
+    transfer: T,
+    transferred: f64,
     plan: &'a Plan,
     speed: f64,
     u: Vec<S::Vector>,
@@ -131,8 +169,14 @@ struct Run<'a, S: Space, M: Constitutive<S>, W: Wall<S>, const N: usize> {
     failure: Option<String>,
 }
 
-impl<'a, S: Space, M: Constitutive<S>, W: Wall<S>, const N: usize> Run<'a, S, M, W, N> {
-    fn new(model: Model<S, M, W, N>, plan: &'a Plan, speed: f64) -> Self {
+impl<'a, S, M, W, T, const N: usize> Run<'a, S, M, W, T, N>
+where
+    S: Space,
+    M: Constitutive<S>,
+    W: Wall<S>,
+    T: Remap<S::Vector>,
+{
+    fn new(model: Model<S, M, W, N>, transfer: T, plan: &'a Plan, speed: f64) -> Self {
         let nodes = model.mass.len();
         let mut incident = S::Vector::default();
         incident.as_mut()[S::NORMAL] = -speed;
@@ -149,6 +193,8 @@ impl<'a, S: Space, M: Constitutive<S>, W: Wall<S>, const N: usize> Run<'a, S, M,
             old: vec![S::Vector::default(); nodes],
             force: vec![S::Vector::default(); nodes],
             model,
+            transfer,
+            transferred: 0.0,
             plan,
             speed,
             dt: 0.0,
@@ -193,14 +239,10 @@ impl<'a, S: Space, M: Constitutive<S>, W: Wall<S>, const N: usize> Run<'a, S, M,
 
     /// Stable time step and contact candidates of the present configuration.
     fn refresh(&mut self) {
-        let iterations = if self.step == 0 { 60 } else { 3 };
-        let stable = self.limit.estimate(
-            &mut self.model.points,
-            &self.u,
-            &self.model.recip_mass,
-            iterations,
-        );
-        self.dt = stable * self.plan.grid.dt_share;
+        self.dt = match self.plan.scheme.time_step {
+            TimeStep::Stable => self.stable_step() * self.plan.grid.dt_share,
+            TimeStep::Fixed(dt) => dt,
+        };
         let covering = COVERED * self.plan.grid.fine / (self.speed * self.dt);
         let interval = covering.clamp(1.0, REFRESH).floor();
         self.next_refresh += interval as u64;
@@ -208,6 +250,17 @@ impl<'a, S: Space, M: Constitutive<S>, W: Wall<S>, const N: usize> Run<'a, S, M,
         self.model
             .contact
             .refresh(&self.u, 2.0 * self.speed, horizon);
+    }
+
+    /// Stability limit of the present configuration.
+    fn stable_step(&mut self) -> f64 {
+        let iterations = if self.step == 0 { 60 } else { 3 };
+        self.limit.estimate(
+            &mut self.model.points,
+            &self.u,
+            &self.model.recip_mass,
+            iterations,
+        )
     }
 
     /// One step of the symplectic scheme: forces at $u_n$, velocities to n + 1/2, contact, displacements to n + 1.
@@ -247,6 +300,14 @@ impl<'a, S: Space, M: Constitutive<S>, W: Wall<S>, const N: usize> Run<'a, S, M,
         if output {
             self.record(sweep.elastic, touch.impulse);
         }
+        let end = StepEnd {
+            dt,
+            old: &self.old,
+            force: &self.force,
+            mass: &self.model.mass,
+            recip_mass: &self.model.recip_mass,
+        };
+        self.transferred += self.transfer.remap(end, &mut self.v);
         for (u, v) in self.u.iter_mut().zip(&self.v) {
             for (u, v) in u.as_mut().iter_mut().zip(v.as_ref()) {
                 *u += dt * v;
@@ -278,7 +339,8 @@ impl<'a, S: Space, M: Constitutive<S>, W: Wall<S>, const N: usize> Run<'a, S, M,
             })
             .sum();
         let incident = self.frames[0].kinetic;
-        let balance = kinetic + elastic + self.plastic - self.contact_work - incident;
+        let given = incident + self.contact_work + self.transferred;
+        let balance = kinetic + elastic + self.plastic - given;
         let closure = (balance / incident).abs();
         if !(closure <= UNSTABLE) {
             self.failure = Some(format!(
@@ -319,9 +381,17 @@ impl<'a, S: Space, M: Constitutive<S>, W: Wall<S>, const N: usize> Run<'a, S, M,
         }
     }
 
+    /// Memory of points and nodes.
+    fn bytes(&self) -> usize {
+        let fields = [&self.u, &self.v, &self.old, &self.force];
+        let nodes: usize = fields.iter().map(|f| std::mem::size_of_val(&f[..])).sum();
+        self.model.points.bytes() + nodes + self.transfer.bytes()
+    }
+
     fn into_record(self) -> Record {
         let exit_speed = self.mean(&self.v, S::NORMAL);
         let rebound = self.snapshot();
+        let memory_bytes = self.bytes();
         let status = match self.failure {
             Some(reason) => Status::Failed(format!("step {}: {reason}", self.step)),
             None if self.time > self.plan.longest_time => Status::NoRebound,
@@ -335,6 +405,8 @@ impl<'a, S: Space, M: Constitutive<S>, W: Wall<S>, const N: usize> Run<'a, S, M,
             plastic_strain: self.model.points.plastic_strain_volume() / self.mass,
             points: self.model.points.count(),
             steps: self.step,
+            memory_bytes,
+            transfer_loss: -self.transferred / self.frames[0].kinetic,
             frames: self.frames,
             compressed: self.compressed.unwrap_or_default(),
             rebound,

@@ -81,6 +81,10 @@ pub struct Record {
     pub points: usize,
     /// Steps.
     pub steps: u64,
+    /// Memory of points and nodes, bytes.
+    pub memory_bytes: usize,
+    /// Energy lost in transfers between points and grid over the incident kinetic energy.
+    pub transfer_loss: f64,
     /// How it ended.
     pub status: Status,
     /// The particle at its largest displacement.

@@ -1,12 +1,15 @@
 //! Set-up of a run: the grid laid over the body, its points, nodal masses and surface points.
 
 use crate::impact::basis::Direction;
-use crate::impact::body::{SurfacePoint, clip_cell, meridian};
+use crate::impact::body::{SectionPoint, SurfacePoint, clip_cell, meridian};
 use crate::impact::contact::{Contact, Wall};
 use crate::impact::kernel::{Point, Points};
+use crate::impact::lattice;
 use crate::material::stress::Constitutive;
 use crate::plan::{Grid, graded};
+use crate::scheme::Layout;
 use crate::space::{Axisymmetric, Space};
+use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 /// Distance of surface points over the size of their cell. Halving it from 1 takes most of the staircase out of F as the
@@ -77,6 +80,7 @@ impl<const P: usize> Section<P> {
 /// Lay `grid` over a unit sphere of the given material. `N` must be $(P+1)^2$.
 pub fn build<M: Constitutive<Axisymmetric>, const P: usize, const N: usize>(
     grid: &Grid,
+    layout: Layout,
     material: M,
     contact_tolerance: f64,
 ) -> Model<Axisymmetric, M, Contact<Axisymmetric, N>, N> {
@@ -86,13 +90,17 @@ pub fn build<M: Constitutive<Axisymmetric>, const P: usize, const N: usize>(
     let nodes = section.r.functions() * section.z.functions();
     let mut mass = vec![0.0; nodes];
     let mut points = Points::new(material, offsets);
+    let lattice = section.lattice(layout);
     for j in 0..section.z.cells() {
         for i in 0..section.r.cells() {
-            let clipped = clip_cell(
-                section.r.cell(i),
-                section.z.cell(j),
-                grid.points_per_direction,
-            );
+            let clipped = match layout {
+                Layout::Fitted => clip_cell(
+                    section.r.cell(i),
+                    section.z.cell(j),
+                    grid.points_per_direction,
+                ),
+                Layout::Lattice(_) => lattice.get(&(i, j)).cloned().unwrap_or_default(),
+            };
             let cell: Vec<Point<N>> = clipped
                 .iter()
                 .map(|p| section.point(i, j, p.r, p.z, p.area))
@@ -110,7 +118,12 @@ pub fn build<M: Constitutive<Axisymmetric>, const P: usize, const N: usize>(
         }
     }
     let recip_mass = recip_mass(&mass, section.r.functions());
-    let contact = surface(&section, offsets, &recip_mass, contact_tolerance);
+    let mut contact = Contact::new(offsets, contact_tolerance);
+    for (p, height) in section.surface(layout) {
+        let (first, values) = section.interpolate::<N>(p.r, p.z);
+        contact.push(first, values, height, p.r);
+    }
+    contact.couple(&recip_mass);
     let marker = |z: f64| {
         let (first, values) = section.interpolate::<N>(0.0, z);
         (0..N).map(|n| (first + offsets[n], values[n])).collect()
@@ -135,26 +148,51 @@ fn recip_mass(mass: &[f64], columns: usize) -> Vec<[f64; 2]> {
         .collect()
 }
 
-/// Surface points: two a cell along the exact meridian, pole to pole.
-fn surface<const P: usize, const N: usize>(
-    section: &Section<P>,
-    offsets: [usize; N],
-    recip_mass: &[[f64; 2]],
-    tolerance: f64,
-) -> Contact<Axisymmetric, N> {
-    let spacing = |p: SurfacePoint| {
-        let size = |(a, b): (f64, f64)| b - a;
-        let across = size(section.r.cell(section.r.cell_of(p.r)));
-        let up = size(section.z.cell(section.z.cell_of(p.z)));
-        CONTACT_SPACING * (across / (1.0 - p.z).abs().max(1e-3)).min(up / p.r.max(1e-3))
-    };
-    let mut contact = Contact::new(offsets, tolerance);
-    for p in meridian(PI, spacing) {
-        let (first, values) = section.interpolate::<N>(p.r, p.z);
-        contact.push(first, values, p.z, p.r);
+/// Greville points of all nodes of a grid: where coefficients that equal a coordinate make the field that coordinate.
+#[must_use]
+pub fn places(grid: &Grid) -> Vec<[f64; 2]> {
+    match grid.degree {
+        1 => Section::<1>::new(grid).places(),
+        2 => Section::<2>::new(grid).places(),
+        _ => Section::<3>::new(grid).places(),
     }
-    contact.couple(recip_mass);
-    contact
+}
+
+impl<const P: usize> Section<P> {
+    /// Surface points, two a cell along the exact meridian from pole to pole, with their heights above the wall; of a
+    /// lattice its outermost points, the lowest of which touch at first.
+    fn surface(&self, layout: Layout) -> Vec<(SurfacePoint, f64)> {
+        let spacing = |p: SurfacePoint| {
+            let size = |(a, b): (f64, f64)| b - a;
+            let across = size(self.r.cell(self.r.cell_of(p.r)));
+            let up = size(self.z.cell(self.z.cell_of(p.z)));
+            CONTACT_SPACING * (across / (1.0 - p.z).abs().max(1e-3)).min(up / p.r.max(1e-3))
+        };
+        let points = match layout {
+            Layout::Fitted => meridian(PI, spacing),
+            Layout::Lattice(count) => lattice::outermost(count),
+        };
+        let lowest = points.first().map_or(0.0, |p| p.z);
+        points.into_iter().map(|p| (p, p.z - lowest)).collect()
+    }
+
+    /// Lattice points by cell; none for another layout.
+    fn lattice(&self, layout: Layout) -> BTreeMap<(usize, usize), Vec<SectionPoint>> {
+        let mut cells: BTreeMap<_, Vec<SectionPoint>> = BTreeMap::new();
+        if let Layout::Lattice(count) = layout {
+            for p in lattice::points(count) {
+                let cell = (self.r.cell_of(p.r), self.z.cell_of(p.z));
+                cells.entry(cell).or_default().push(p);
+            }
+        }
+        cells
+    }
+
+    /// Greville points of all nodes.
+    fn places(&self) -> Vec<[f64; 2]> {
+        let row = |j| (0..self.r.functions()).map(move |i| [self.r.greville(i), self.z.greville(j)]);
+        (0..self.z.functions()).flat_map(row).collect()
+    }
 }
 
 #[cfg(test)]
@@ -180,7 +218,7 @@ mod tests {
 
     fn model() -> Sphere {
         let moduli = Moduli::new(1.0, 0.3);
-        build::<Elastic, 2, 9>(&grid(), Elastic { moduli }, 1e-9)
+        build::<Elastic, 2, 9>(&grid(), Layout::Fitted, Elastic { moduli }, 1e-9)
     }
 
     /// A smooth displacement field that keeps the axis in place.

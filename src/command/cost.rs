@@ -1,0 +1,225 @@
+//! Cost command: runs the ladders of a case one after the other and shows error against time; finished runs are kept.
+
+use super::{Context, Verdict, output_folder, print};
+use crate::case::Case;
+use crate::cli::CostArgs;
+use crate::cost::{Effort, Finished, Footprint, Pulse, Row, Rung, Summary, mark_front, rungs};
+use crate::curve::{Impact, Status};
+use crate::files::{write_atomic, write_rows};
+use crate::impact::simulate;
+use crate::report::chart::{Chart, Mark, Series};
+use crate::report::figure::Figure;
+use crate::report::palette::Role;
+use crate::report::scale::Axis;
+use crate::unit::{self, Time, significant};
+use crate::{Error, Result};
+use sha2::{Digest, Sha256};
+use std::path::{Path, PathBuf};
+
+/// Run the ladders of every speed asked for; write `cost.csv`, `cost.md` and the figures.
+///
+/// One run at a time on one thread, so that wall times mean something.
+///
+/// # Errors
+/// Those of reading the case and writing the files; [`Error::Impact`] when the finest run does not finish.
+pub fn run(args: &CostArgs, context: &Context) -> Result<Verdict> {
+    let case = Case::read(&args.case)?.with_velocities(&args.velocity)?;
+    let longest = unit::argument::<Time>("--longest", &args.longest)?;
+    let out = output_folder(args.out.as_deref(), &case.name)?.join("cost");
+    let speeds = match args.velocity.is_empty() {
+        true => &case.velocities[case.velocities.len() - 1..],
+        false => &case.velocities[..],
+    };
+    for &velocity in speeds {
+        let job = Job {
+            case: &case,
+            velocity,
+            out: &out,
+            provenance: context.provenance(&case.hash),
+        };
+        job.run(args, longest, context)?;
+    }
+    Ok(Verdict::Met)
+}
+
+/// The ladders of one speed.
+struct Job<'a> {
+    case: &'a Case,
+    velocity: f64,
+    out: &'a Path,
+    provenance: String,
+}
+
+impl Job<'_> {
+    fn run(&self, args: &CostArgs, longest: f64, context: &Context) -> Result<()> {
+        let effort = if args.quick { Effort::Quick } else { Effort::Full };
+        let all = rungs(self.case, self.velocity, effort);
+        let (reference, others) = all.split_first().ok_or_else(|| Error::Figure {
+            what: "cost".to_owned(),
+            reason: "no ladders".to_owned(),
+        })?;
+        let wanted: Vec<&Rung> = others
+            .iter()
+            .filter(|r| is_wanted(&r.ladder, &args.ladder))
+            .collect();
+        if wanted.is_empty() {
+            return Err(unknown_ladder(&args.ladder, others));
+        }
+        let bar = context.progress(wanted.len() as u64 + 1, "cost");
+        let finest = self.finished(reference)?;
+        check(&finest.impact)?;
+        let pulse = Pulse::of(&finest.impact);
+        let elastic = !reference.plan.plastic;
+        let hertz = elastic.then(|| Pulse::hertz(self.case, self.velocity));
+        let mut rows = vec![Row::new(reference, &finest, &pulse, hertz.as_ref())];
+        let mut left_out = Vec::new();
+        for rung in wanted {
+            bar.inc(1);
+            if rung.plan.seconds > longest && !self.folder(rung).join("summary.json").is_file() {
+                left_out.push((format!("{}: {}", rung.ladder, rung.name), rung.plan.seconds));
+                continue;
+            }
+            let done = self.finished(rung)?;
+            rows.push(Row::new(rung, &done, &pulse, hertz.as_ref()));
+        }
+        bar.finish_and_clear();
+        mark_front(&mut rows);
+        self.write(&rows, &left_out)
+    }
+
+    /// Folder of a run, named after all that decides its outcome.
+    fn folder(&self, rung: &Rung) -> PathBuf {
+        let text = format!(
+            "{} {:?} {} {:?} {:?} {:?} {}",
+            crate::PROGRAM,
+            self.case.material,
+            self.case.radius,
+            rung.plan.grid,
+            rung.plan.scheme,
+            rung.plan.estimate,
+            rung.plan.velocity
+        );
+        let hash = Sha256::digest(text.as_bytes());
+        let name: String = hash[..8].iter().map(|byte| format!("{byte:02x}")).collect();
+        self.out.join("runs").join(name)
+    }
+
+    /// The run of a rung: read if it is there, else simulated and kept.
+    fn finished(&self, rung: &Rung) -> Result<Finished> {
+        let folder = self.folder(rung);
+        let path = folder.join("footprint.json");
+        if folder.join("summary.json").is_file() {
+            let text = std::fs::read_to_string(&path).map_err(Error::file("read", &path))?;
+            let footprint = serde_json::from_str(&text)
+                .map_err(|e| Error::file("read", &path)(e.into()))?;
+            return Ok(Finished {
+                impact: Impact::read(&folder)?,
+                footprint,
+            });
+        }
+        let done = simulate(&self.case.material, self.case.radius, &rung.plan);
+        let footprint = Footprint {
+            memory_bytes: done.memory_bytes,
+            transfer_loss: done.transfer_loss,
+        };
+        let text = serde_json::to_string(&footprint)
+            .map_err(|e| Error::file("write", &path)(e.into()))?;
+        // the summary comes last: it says that all is there
+        write_atomic(&path, text.as_bytes())?;
+        done.impact.write(&folder, &self.provenance)?;
+        Ok(Finished {
+            impact: done.impact,
+            footprint,
+        })
+    }
+
+    fn write(&self, rows: &[Row], left_out: &[(String, f64)]) -> Result<()> {
+        let speed = significant(self.velocity, 4);
+        let name = |end: &str| self.out.join(format!("cost_V{speed}{end}"));
+        write_rows(&name(".csv"), &self.provenance, rows)?;
+        let summary = Summary {
+            case: &self.case.name,
+            rows,
+            left_out,
+        };
+        let text = summary.markdown();
+        let markdown = format!("<!-- {} -->\n{text}", self.provenance);
+        write_atomic(&name(".md"), markdown.as_bytes())?;
+        figure(rows, format!("cost_V{speed}"))?.write(self.out)?;
+        print(&text)
+    }
+}
+
+/// Whether a ladder's name begins with one of those asked for.
+fn is_wanted(ladder: &str, asked: &[String]) -> bool {
+    asked.is_empty() || asked.iter().any(|a| ladder.starts_with(a.as_str()))
+}
+
+fn unknown_ladder(asked: &[String], rungs: &[Rung]) -> Error {
+    let mut names: Vec<&str> = rungs.iter().map(|r| r.ladder.as_str()).collect();
+    names.dedup();
+    Error::Argument {
+        argument: "--ladder".to_owned(),
+        found: format!("\"{}\"", asked.join("\", \"")),
+        allowed: format!("must begin one of: {}", names.join("; ")),
+    }
+}
+
+/// Nothing can be measured against a run that did not finish.
+fn check(impact: &Impact) -> Result<()> {
+    let reason = match &impact.summary.status {
+        Status::Ok => return Ok(()),
+        Status::NoRebound => "the finest run did not rebound".to_owned(),
+        Status::Failed(reason) => format!("the finest run failed: {reason}"),
+    };
+    Err(Error::Impact {
+        velocity: impact.summary.velocity_m_s,
+        step: impact.summary.steps,
+        reason,
+    })
+}
+
+/// Error against wall time, a line a ladder, and the Pareto front.
+fn figure(rows: &[Row], name: String) -> Result<Figure> {
+    let good = |r: &&Row| r.error > 0.0 && r.wall_s > 0.0;
+    let mut front: Vec<(f64, f64)> = rows
+        .iter()
+        .filter(|r| r.on_front)
+        .filter(good)
+        .map(|r| (r.wall_s, r.error))
+        .collect();
+    front.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut series = vec![Series {
+        label: "Pareto front".to_owned(),
+        role: Role::Law,
+        mark: Mark::Line,
+        points: front,
+    }];
+    for row in rows.iter().filter(good) {
+        let point = (row.wall_s, row.error);
+        match series.iter_mut().find(|s| s.label == row.ladder) {
+            Some(series) => series.points.push(point),
+            None => series.push(Series {
+                label: row.ladder.clone(),
+                role: Role::Theory,
+                mark: Mark::Points,
+                points: vec![point],
+            }),
+        }
+    }
+    let axis = |label: &str, unit| Axis {
+        log_if_wide: true,
+        ..Axis::new(label, unit)
+    };
+    Figure::chart(
+        name,
+        "Largest relative error of F*, delta* and e against the finest run, over wall time on one thread; the line joins \
+         the settings that no other beats."
+            .to_owned(),
+        Chart {
+            x: axis("wall time", "s"),
+            y: axis("largest error of F*, δ*, e", ""),
+            series,
+        },
+    )
+}

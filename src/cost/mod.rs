@@ -1,0 +1,73 @@
+//! Cost: what accuracy costs in time. Ladders of settings for one impact, the errors of each, and the Pareto front.
+
+mod ladder;
+mod pulse;
+mod row;
+mod table;
+
+pub use ladder::{Effort, Rung, rungs};
+pub use pulse::{Misfit, Pulse};
+pub use row::Row;
+pub use table::{Summary, THRESHOLDS};
+
+use crate::curve::Impact;
+use serde::{Deserialize, Serialize};
+
+/// A run that has ended.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Finished {
+    /// Curve and figures.
+    pub impact: Impact,
+    /// What they do not hold.
+    pub footprint: Footprint,
+}
+
+/// What is kept of a run beside its curve and figures.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Footprint {
+    /// Memory of points and nodes, bytes.
+    pub memory_bytes: usize,
+    /// Energy lost in transfers between points and grid over the incident energy.
+    pub transfer_loss: f64,
+}
+
+/// Mark the rows that nothing beats: no other row is both faster and more accurate.
+pub fn mark_front(rows: &mut [Row]) {
+    let mut order: Vec<usize> = (0..rows.len())
+        .filter(|&i| rows[i].ladder != ladder::REFERENCE && rows[i].error.is_finite())
+        .collect();
+    order.sort_by(|&a, &b| {
+        let key = |i: usize| (rows[i].wall_s, rows[i].error);
+        let (a, b) = (key(a), key(b));
+        a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1))
+    });
+    let mut least = f64::INFINITY;
+    for i in order {
+        rows[i].on_front = rows[i].error < least;
+        least = least.min(rows[i].error);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_front_holds_what_nothing_beats() {
+        let row = |wall_s: f64, error: f64| Row {
+            wall_s,
+            error,
+            ..Row::empty("cells", "x")
+        };
+        let mut rows = vec![
+            row(1.0, 0.1),
+            row(2.0, 0.2),
+            row(3.0, 0.05),
+            row(0.5, f64::NAN),
+            row(4.0, 0.05),
+        ];
+        mark_front(&mut rows);
+        let marks: Vec<bool> = rows.iter().map(|r| r.on_front).collect();
+        assert_eq!(marks, [true, false, true, false, false]);
+    }
+}

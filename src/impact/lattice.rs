@@ -1,0 +1,71 @@
+//! Lattice: material points of equal spacing kept where they lie inside the sphere, as most material point codes fill a
+//! body. Its surface is a staircase; the outermost points touch the wall as discs of the spacing.
+
+use crate::impact::body::{SectionPoint, SurfacePoint};
+
+/// Square lattice of `count` points a diameter over the unit half disc; areas are the squares of the spacing.
+#[must_use]
+pub fn points(count: f64) -> Vec<SectionPoint> {
+    let spacing = 2.0 / count;
+    let place = |k: usize| (k as f64 + 0.5) * spacing;
+    let most = count.ceil() as usize;
+    let mut all = Vec::new();
+    for j in 0..most {
+        for i in 0..most {
+            if is_inside(place(i), place(j)) {
+                all.push(SectionPoint {
+                    r: place(i),
+                    z: place(j),
+                    area: spacing * spacing,
+                });
+            }
+        }
+    }
+    all
+}
+
+fn is_inside(r: f64, z: f64) -> bool {
+    r * r + (z - 1.0) * (z - 1.0) <= 1.0
+}
+
+/// Lattice points of the lower half that miss a neighbour below or outside, in order along the surface.
+#[must_use]
+pub fn outermost(count: f64) -> Vec<SurfacePoint> {
+    let spacing = 2.0 / count;
+    let mut all: Vec<SurfacePoint> = points(count)
+        .iter()
+        .filter(|p| p.z < 1.0)
+        .filter(|p| !is_inside(p.r, p.z - spacing) || !is_inside(p.r + spacing, p.z))
+        .map(|p| SurfacePoint { r: p.r, z: p.z })
+        .collect();
+    all.sort_by(|a, b| (a.r / (1.0 - a.z)).total_cmp(&(b.r / (1.0 - b.z))));
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    #[test]
+    fn lattice_fills_the_sphere_up_to_its_staircase() {
+        let volume = |count: f64| -> f64 { points(count).iter().map(|p| 2.0 * PI * p.r * p.area).sum() };
+        for count in [13.0, 25.0, 50.0, 80.0] {
+            let error = volume(count) / (4.0 / 3.0 * PI) - 1.0;
+            assert!(error.abs() < 1.0 / count, "{count}: {error}");
+        }
+    }
+
+    #[test]
+    fn outermost_points_follow_the_surface_within_two_spacings() {
+        let all = outermost(50.0);
+        for p in &all {
+            let distance = p.r.hypot(p.z - 1.0);
+            assert!(distance <= 1.0 && distance > 1.0 - 2.0 * 0.04);
+        }
+        // ordered from the pole: every point lies within two spacings of the next
+        for w in all.windows(2) {
+            assert!((w[1].r - w[0].r).hypot(w[1].z - w[0].z) < 0.09);
+        }
+    }
+}

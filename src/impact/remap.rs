@@ -1,0 +1,232 @@
+//! Remap: velocity carried by the material points and mapped to the nodes every step, as most material point methods do.
+//!
+//! The crate's own scheme is `()`: velocity stays on the nodes. The others exist to show what transfers cost and lose.
+//! Nodal displacements grow by the mapped velocity, as in the thesis (equations 3-6 to 3-11).
+
+use crate::impact::kernel::Point;
+
+/// A step that has ended, before velocities are mapped; nodal fields.
+#[derive(Debug, Clone, Copy)]
+pub struct StepEnd<'a, V> {
+    /// Length of the step.
+    pub dt: f64,
+    /// Velocity before it.
+    pub old: &'a [V],
+    /// Internal force in it.
+    pub force: &'a [V],
+    /// Lumped mass.
+    pub mass: &'a [f64],
+    /// Reciprocal mass by component; 0 where the component is fixed.
+    pub recip_mass: &'a [V],
+}
+
+/// What happens to the nodal velocity between two steps.
+pub trait Remap<V> {
+    /// Map the velocity `v` through the points; returns the energy that the body gains by it (negative: a loss).
+    fn remap(&mut self, step: StepEnd<V>, v: &mut [V]) -> f64;
+    /// Memory, bytes.
+    fn bytes(&self) -> usize;
+}
+
+/// Velocity stays on the nodes.
+impl<V> Remap<V> for () {
+    #[inline(always)]
+    fn remap(&mut self, _: StepEnd<V>, _: &mut [V]) -> f64 {
+        0.0
+    }
+    fn bytes(&self) -> usize {
+        0
+    }
+}
+
+/// A point that carries velocity.
+#[derive(Debug, Clone, Copy)]
+struct Carrier<const N: usize> {
+    node: usize,
+    values: [f64; N],
+    mass: f64,
+    velocity: [f64; 3],
+}
+
+/// The points of a run and their way to the nodes.
+#[derive(Debug, Clone)]
+pub struct Carriers<V, const N: usize> {
+    carriers: Vec<Carrier<N>>,
+    offsets: [usize; N],
+    mapped: Vec<V>,
+}
+
+impl<V: Copy + Default + AsRef<[f64]> + AsMut<[f64]>, const N: usize> Carriers<V, N> {
+    /// Carriers for `points` (first node, point) on `nodes` nodes, all at `velocity`.
+    #[must_use]
+    pub fn new(points: &[(u32, Point<N>)], offsets: [usize; N], nodes: usize, velocity: V) -> Self {
+        let mut start = [0.0; 3];
+        for (a, b) in start.iter_mut().zip(velocity.as_ref()) {
+            *a = *b;
+        }
+        let carry = |(node, p): &(u32, Point<N>)| Carrier {
+            node: *node as usize,
+            values: p.values,
+            mass: p.volume,
+            velocity: start,
+        };
+        Carriers {
+            carriers: points.iter().map(carry).collect(),
+            offsets,
+            mapped: vec![V::default(); nodes],
+        }
+    }
+
+    /// Momentum of the carriers on the nodes, over their mass, into `v`; returns the energy gained by the change.
+    fn deposit(&mut self, step: &StepEnd<V>, v: &mut [V]) -> f64 {
+        let mut gain = 0.0;
+        for (n, v) in v.iter_mut().enumerate() {
+            for (k, v) in v.as_mut().iter_mut().enumerate() {
+                let new = self.mapped[n].as_ref()[k] * step.recip_mass[n].as_ref()[k];
+                gain += 0.5 * step.mass[n] * (new * new - *v * *v)
+                    + 0.5 * step.dt * step.force[n].as_ref()[k] * (*v - new);
+                *v = new;
+            }
+        }
+        gain
+    }
+
+    fn size(&self) -> usize {
+        std::mem::size_of_val(&self.carriers[..]) + std::mem::size_of_val(&self.mapped[..])
+    }
+}
+
+/// FLIP, PIC, or between them: $v_p \leftarrow \alpha (v_p + \sum_i N_{ip} \Delta v_i) + (1 - \alpha) \sum_i N_{ip} v_i$.
+#[derive(Debug, Clone)]
+pub struct Blend<V, const N: usize> {
+    /// The points.
+    pub carriers: Carriers<V, N>,
+    /// Share $\alpha$ of FLIP.
+    pub flip: f64,
+}
+
+impl<V: Copy + Default + AsRef<[f64]> + AsMut<[f64]>, const N: usize> Remap<V> for Blend<V, N> {
+    fn remap(&mut self, step: StepEnd<V>, v: &mut [V]) -> f64 {
+        let Carriers {
+            carriers,
+            offsets,
+            mapped,
+        } = &mut self.carriers;
+        mapped.fill(V::default());
+        for p in carriers {
+            let (mut change, mut here) = ([0.0; 3], [0.0; 3]);
+            for (value, offset) in p.values.iter().zip(offsets.iter()) {
+                let n = p.node + offset;
+                let pair = v[n].as_ref().iter().zip(step.old[n].as_ref());
+                for ((c, h), (new, old)) in change.iter_mut().zip(&mut here).zip(pair) {
+                    *c += value * (new - old);
+                    *h += value * new;
+                }
+            }
+            for ((x, c), h) in p.velocity.iter_mut().zip(change).zip(here) {
+                *x = self.flip * (*x + c) + (1.0 - self.flip) * h;
+            }
+            for (value, offset) in p.values.iter().zip(offsets.iter()) {
+                let share = p.mass * value;
+                for (m, x) in mapped[p.node + *offset].as_mut().iter_mut().zip(p.velocity) {
+                    *m += share * x;
+                }
+            }
+        }
+        self.carriers.deposit(&step, v)
+    }
+
+    fn bytes(&self) -> usize {
+        self.carriers.size()
+    }
+}
+
+/// Affine particle-in-cell: $v_p = \sum_i N_{ip} v_i$, $C_p = \sum_i N_{ip} v_i (x_i - x_p)^T D_p^{-1}$, and nodes get
+/// $v_p + C_p (x_i - x_p)$ (Jiang, Schroeder, Selle, Teran and Stomakhin 2015).
+#[derive(Debug, Clone)]
+pub struct Apic<V, const N: usize> {
+    carriers: Carriers<V, N>,
+    /// $D_p^{-1} (x_i - x_p)$ and $x_i - x_p$ of every node of every point.
+    arms: Vec<[[[f64; 3]; 2]; N]>,
+}
+
+impl<V: Copy + Default + AsRef<[f64]> + AsMut<[f64]>, const N: usize> Apic<V, N> {
+    /// For `points`, whose nodes lie at `places` (Greville points, so that affine fields are exact).
+    #[must_use]
+    pub fn new(carriers: Carriers<V, N>, points: &[(u32, Point<N>)], places: &[V]) -> Self {
+        let dimensions = V::default().as_ref().len();
+        let arms = points
+            .iter()
+            .map(|(node, p)| {
+                let mut reach = [[0.0; 3]; N];
+                for (reach, offset) in reach.iter_mut().zip(&carriers.offsets) {
+                    for (k, x) in places[*node as usize + offset].as_ref().iter().enumerate() {
+                        reach[k] = x - p.position[k];
+                    }
+                }
+                affine(&reach, &p.values, dimensions)
+            })
+            .collect();
+        Apic { carriers, arms }
+    }
+}
+
+/// $D^{-1} x$ and $x$ for the arms `reach` weighted by `values`; unused dimensions get a unit diagonal.
+fn affine<const N: usize>(
+    reach: &[[f64; 3]; N],
+    values: &[f64; N],
+    dimensions: usize,
+) -> [[[f64; 3]; 2]; N] {
+    let mut d = nalgebra::Matrix3::<f64>::zeros();
+    for (x, value) in reach.iter().zip(values) {
+        for i in 0..dimensions {
+            for j in 0..dimensions {
+                d[(i, j)] += value * x[i] * x[j];
+            }
+        }
+    }
+    for k in dimensions..3 {
+        d[(k, k)] = 1.0;
+    }
+    // a point on a node of linear splines has no spread along a direction: no slope there
+    let inverse = d.try_inverse().unwrap_or_else(nalgebra::Matrix3::zeros);
+    std::array::from_fn(|a| {
+        let x = nalgebra::Vector3::from(reach[a]);
+        [(inverse * x).into(), reach[a]]
+    })
+}
+
+impl<V: Copy + Default + AsRef<[f64]> + AsMut<[f64]>, const N: usize> Remap<V> for Apic<V, N> {
+    fn remap(&mut self, step: StepEnd<V>, v: &mut [V]) -> f64 {
+        let Carriers {
+            carriers,
+            offsets,
+            mapped,
+        } = &mut self.carriers;
+        mapped.fill(V::default());
+        for (p, arms) in carriers.iter_mut().zip(&self.arms) {
+            let (mut mean, mut slope) = ([0.0; 3], [[0.0; 3]; 3]);
+            for ((value, offset), [dual, _]) in p.values.iter().zip(offsets.iter()).zip(arms) {
+                for (k, x) in v[p.node + *offset].as_ref().iter().enumerate() {
+                    mean[k] += value * x;
+                    for (s, d) in slope[k].iter_mut().zip(dual) {
+                        *s += value * x * d;
+                    }
+                }
+            }
+            p.velocity = mean;
+            for ((value, offset), [_, arm]) in p.values.iter().zip(offsets.iter()).zip(arms) {
+                let share = p.mass * value;
+                for (k, m) in mapped[p.node + *offset].as_mut().iter_mut().enumerate() {
+                    let turn: f64 = slope[k].iter().zip(arm).map(|(s, x)| s * x).sum();
+                    *m += share * (mean[k] + turn);
+                }
+            }
+        }
+        self.carriers.deposit(&step, v)
+    }
+
+    fn bytes(&self) -> usize {
+        self.carriers.size() + std::mem::size_of_val(&self.arms[..])
+    }
+}

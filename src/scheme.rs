@@ -1,0 +1,81 @@
+//! Scheme: the choices that make one material point method differ from another, and their names.
+//!
+//! [`Scheme::default`] is what this crate uses. The others exist to be compared with it (`impactlaw cost`).
+
+/// How velocity lives between steps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Transfer {
+    /// On the nodes, for good: no transfer between points and grid.
+    Persistent,
+    /// On the points: each step maps it to the nodes by lumped mass; the points take back this share of the change of
+    /// the nodal velocity (FLIP) and for the rest the nodal velocity itself (PIC). 1: FLIP, 0: PIC.
+    Blend(f64),
+    /// On the points, with an affine field about each (Jiang and others 2015).
+    Apic,
+}
+
+/// Where the material points are and what grid they live on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Layout {
+    /// Gauss points of the cells clipped by the exact sphere; contact on its exact surface; graded grid.
+    Fitted,
+    /// Square lattice of this many points a diameter, kept where they lie inside the sphere; the outermost touch the
+    /// wall as discs of the lattice's spacing.
+    Lattice(f64),
+}
+
+/// Configuration that gradients refer to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Reference {
+    /// The undeformed one: weights never change (total Lagrangian).
+    Initial,
+    /// The present one: points move through the grid and weights are computed every step (updated Lagrangian).
+    Present,
+}
+
+/// Length of the time steps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum TimeStep {
+    /// A share of the stability limit, estimated as the body deforms.
+    Stable,
+    /// This long throughout, R/c0.
+    Fixed(f64),
+}
+
+/// One material point method.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scheme {
+    /// How velocity lives between steps.
+    pub transfer: Transfer,
+    /// Material points and grid.
+    pub layout: Layout,
+    /// Configuration that gradients refer to.
+    pub reference: Reference,
+    /// Length of the time steps.
+    pub time_step: TimeStep,
+}
+
+impl Default for Scheme {
+    fn default() -> Self {
+        Scheme {
+            transfer: Transfer::Persistent,
+            layout: Layout::Fitted,
+            reference: Reference::Initial,
+            time_step: TimeStep::Stable,
+        }
+    }
+}
+
+impl Transfer {
+    /// Name as the field writes it: FLIP, PIC, APIC.
+    #[must_use]
+    pub fn name(&self) -> String {
+        match self {
+            Transfer::Persistent => "nodal".to_owned(),
+            Transfer::Blend(1.0) => "FLIP".to_owned(),
+            Transfer::Blend(0.0) => "PIC".to_owned(),
+            Transfer::Blend(flip) => format!("FLIP {flip}"),
+            Transfer::Apic => "APIC".to_owned(),
+        }
+    }
+}
