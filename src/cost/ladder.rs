@@ -120,13 +120,19 @@ impl Ladder<'_> {
             all.push(self.rung(ladder, name, plan));
         };
         for n in 1..=4 {
-            vary("points", format!("{n} x {n}"), &|p| p.grid.points_per_direction = n);
+            vary("points", format!("{n} x {n}"), &|p| {
+                p.grid.points_per_direction = n
+            });
         }
         for share in [1.0, 0.5, 0.25, 0.125] {
-            vary("time step", format!("{share} of stable"), &|p| p.grid.dt_share = share);
+            vary("time step", format!("{share} of stable"), &|p| {
+                p.grid.dt_share = share
+            });
         }
         for coarse in [0.2, 0.1, 0.05, 0.025] {
-            vary("far cells", format!("{coarse} R"), &|p| p.grid.coarse = coarse);
+            vary("far cells", format!("{coarse} R"), &|p| {
+                p.grid.coarse = coarse
+            });
         }
         for growth in [1.3, 1.15, 1.08] {
             vary("growth", format!("{growth}"), &|p| p.grid.growth = growth);
@@ -134,9 +140,13 @@ impl Ladder<'_> {
         all
     }
 
-    /// Transfers of velocity between points and grid, every step, on the planner's grid.
+    /// Transfers of velocity between points and grid, every step, on the planner's grid; with the stable step and a tenth.
     fn transfers(&self) -> Vec<Rung> {
-        let cells: &[f64] = if self.is_quick() { &[7.0] } else { &[7.0, 14.0] };
+        let cells: &[f64] = if self.is_quick() {
+            &[5.0]
+        } else {
+            &[7.0, 14.0]
+        };
         let kinds = [
             Transfer::Persistent,
             Transfer::Blend(1.0),
@@ -146,10 +156,14 @@ impl Ladder<'_> {
         ];
         let mut all = Vec::new();
         for &n in cells {
-            for transfer in kinds {
-                let mut plan = self.with_cells(n);
-                plan.scheme.transfer = transfer;
-                all.push(self.rung("transfer", format!("{}, a/{n}", transfer.name()), plan));
+            for share in [1.0, 0.1] {
+                for transfer in kinds {
+                    let mut plan = self.with_cells(n);
+                    plan.scheme.transfer = transfer;
+                    plan.grid.dt_share = share;
+                    let name = format!("{}, a/{n}, {share} of stable", transfer.name());
+                    all.push(self.rung("transfer", name, plan));
+                }
             }
         }
         all
@@ -157,10 +171,18 @@ impl Ladder<'_> {
 
     /// Lattice points on a uniform grid, one point a cell: velocity on the nodes, FLIP, updated Lagrangian.
     fn lattices(&self) -> Vec<Rung> {
-        let counts: &[f64] = if self.is_quick() { &[26.0, 38.0] } else { &[26.0, 38.0, 50.0, 80.0, 120.0] };
+        let counts: &[f64] = if self.is_quick() {
+            &[26.0, 38.0]
+        } else {
+            &[26.0, 38.0, 50.0, 80.0, 120.0]
+        };
         let nodal = (Transfer::Persistent, Reference::Initial, "nodal");
         let flip = (Transfer::Blend(1.0), Reference::Initial, "FLIP");
-        let updated = (Transfer::Blend(1.0), Reference::Present, "FLIP, updated Lagrangian");
+        let updated = (
+            Transfer::Blend(1.0),
+            Reference::Present,
+            "FLIP, updated Lagrangian",
+        );
         let mut all = Vec::new();
         for degree in [1, 3] {
             for (transfer, reference, name) in [nodal, flip, updated] {
@@ -170,7 +192,8 @@ impl Ladder<'_> {
                     plan.scheme.transfer = transfer;
                     plan.scheme.reference = reference;
                     if reference == Reference::Present {
-                        plan.scheme.time_step = TimeStep::Fixed(0.1 * self.crossing(plan.grid.fine));
+                        plan.scheme.time_step =
+                            TimeStep::Fixed(0.1 * self.crossing(plan.grid.fine));
                     }
                     let ladder = format!("lattice, degree {degree}, {name}");
                     all.push(self.rung(&ladder, format!("{count} a diameter"), plan));

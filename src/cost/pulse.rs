@@ -73,7 +73,11 @@ impl Pulse {
         let displacement = (15.0 * mass * velocity * velocity / (16.0 * root * stiff)).powf(0.4);
         let samples = hertz_half(displacement, velocity);
         let half = samples.last().map_or(0.0, |s| s.0);
-        let back = samples.iter().rev().skip(1).map(|&(t, x)| (2.0 * half - t, x));
+        let back = samples
+            .iter()
+            .rev()
+            .skip(1)
+            .map(|&(t, x)| (2.0 * half - t, x));
         let force = |x: f64| 4.0 / 3.0 * stiff * root * x * x.sqrt();
         Pulse {
             force: force(displacement),
@@ -113,7 +117,10 @@ impl Pulse {
             return (0.0, 0.0);
         };
         if k == s.len() {
-            return (0.0, last.2 - self.restitution * self.velocity * (time - last.0));
+            return (
+                0.0,
+                last.2 - self.restitution * self.velocity * (time - last.0),
+            );
         }
         let before = if k == 0 { (0.0, 0.0, 0.0) } else { s[k - 1] };
         let share = (time - before.0) / (s[k].0 - before.0).max(f64::MIN_POSITIVE);
@@ -172,9 +179,12 @@ impl Misfit {
         // a NaN must not hide behind a number
         [self.force, self.displacement, self.restitution]
             .into_iter()
-            .fold(0.0, |worst: f64, x| {
-                if x.abs() <= worst { worst } else { x.abs() }
-            })
+            .fold(
+                0.0,
+                |worst: f64, x| {
+                    if x.abs() <= worst { worst } else { x.abs() }
+                },
+            )
     }
 }
 
@@ -196,7 +206,8 @@ mod tests {
         let stiff: f64 = 4.9e6 / (1.0 - 0.0625);
         let total = 2.87 * (mass * mass / (0.0125 * stiff * stiff)).powf(0.2);
         assert!((pulse.contact_time / total - 1.0).abs() < 2e-3);
-        let peak = |pick: fn(&(f64, f64, f64)) -> f64| pulse.samples.iter().map(pick).fold(0.0, f64::max);
+        let peak =
+            |pick: fn(&(f64, f64, f64)) -> f64| pulse.samples.iter().map(pick).fold(0.0, f64::max);
         assert!((peak(|s| s.1) / pulse.force - 1.0).abs() < 1e-3);
         assert!((peak(|s| s.2) / pulse.displacement - 1.0).abs() < 1e-3);
     }
@@ -205,7 +216,10 @@ mod tests {
     fn errors_are_those_that_were_put_in() {
         let exact = hertz();
         let none = exact.misfit(&exact);
-        assert_eq!((none.worst(), none.mae_force, none.mse_displacement), (0.0, 0.0, 0.0));
+        assert_eq!(
+            (none.worst(), none.mae_force, none.mse_displacement),
+            (0.0, 0.0, 0.0)
+        );
         let mut stronger = exact.clone();
         stronger.force *= 1.1;
         for sample in &mut stronger.samples {
@@ -216,7 +230,11 @@ mod tests {
         // mean of F/F* over the contact: m V (1 + e) / (F* t)
         let mean = 0.1 * 2.0 * 1404.0 * 4.0 / 3.0 * std::f64::consts::PI * 0.0125f64.powi(3)
             / (exact.force * exact.contact_time);
-        assert!((misfit.mae_force / mean - 1.0).abs() < 2e-3, "{} {mean}", misfit.mae_force);
+        assert!(
+            (misfit.mae_force / mean - 1.0).abs() < 2e-3,
+            "{} {mean}",
+            misfit.mae_force
+        );
     }
 
     #[test]

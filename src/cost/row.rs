@@ -24,6 +24,8 @@ pub struct Row {
     pub steps: u64,
     /// Wall time, s.
     pub wall_s: f64,
+    /// Processor time, s: the wall time of a machine with nothing else to do.
+    pub cpu_s: f64,
     /// Seconds the planner predicted.
     pub predicted_s: f64,
     /// Points times steps a second.
@@ -73,7 +75,12 @@ pub struct Row {
 impl Row {
     /// Row of a finished (or stopped) run.
     #[must_use]
-    pub fn new(rung: &Rung, run: &super::Finished, reference: &Pulse, hertz: Option<&Pulse>) -> Self {
+    pub fn new(
+        rung: &Rung,
+        run: &super::Finished,
+        reference: &Pulse,
+        hertz: Option<&Pulse>,
+    ) -> Self {
         let impact = &run.impact;
         let s = &impact.summary;
         let done = s.status == Status::Ok;
@@ -88,8 +95,9 @@ impl Row {
             points: s.points,
             steps: s.steps,
             wall_s: s.wall_s,
+            cpu_s: run.footprint.cpu_s,
             predicted_s: plan.seconds,
-            point_steps_per_s: s.points as f64 * s.steps as f64 / s.wall_s,
+            point_steps_per_s: s.points as f64 * s.steps as f64 / run.footprint.cpu_s,
             memory_bytes: run.footprint.memory_bytes,
             status: status(impact),
             hertz_max_force_error_rel: ideal.map(|m| m.force),
@@ -133,6 +141,7 @@ impl Row {
             points: 0,
             steps: 0,
             wall_s: nan,
+            cpu_s: nan,
             predicted_s: nan,
             point_steps_per_s: nan,
             memory_bytes: 0,

@@ -49,7 +49,8 @@ mod tests {
 
     #[test]
     fn lattice_fills_the_sphere_up_to_its_staircase() {
-        let volume = |count: f64| -> f64 { points(count).iter().map(|p| 2.0 * PI * p.r * p.area).sum() };
+        let volume =
+            |count: f64| -> f64 { points(count).iter().map(|p| 2.0 * PI * p.r * p.area).sum() };
         for count in [13.0, 25.0, 50.0, 80.0] {
             let error = volume(count) / (4.0 / 3.0 * PI) - 1.0;
             assert!(error.abs() < 1.0 / count, "{count}: {error}");

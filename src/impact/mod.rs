@@ -13,13 +13,14 @@ pub mod record;
 pub mod remap;
 pub mod setup;
 pub mod timestep;
+pub mod updated;
 
 use crate::curve::{Impact, ParticleMap, Status};
 use crate::material::flow::{FlowStress, LinearHardening, PerfectlyPlastic};
 use crate::material::stress::{Constitutive, Elastic, J2, Moduli};
 use crate::material::{Flow, Material};
 use crate::plan::Plan;
-use crate::scheme::{TimeStep, Transfer};
+use crate::scheme::{Reference, TimeStep, Transfer};
 use crate::space::{Axisymmetric, Space};
 use contact::Wall;
 use kernel::Purpose;
@@ -27,6 +28,7 @@ use record::{Frame, Record, Snapshot};
 use remap::{Apic, Blend, Carriers, Remap, StepEnd};
 use setup::Model;
 use timestep::StabilityLimit;
+use updated::Updated;
 
 /// Outputs over the expected contact time.
 const OUTPUTS: f64 = 400.0;
@@ -93,6 +95,13 @@ fn run_plastic(moduli: Moduli, flow: &Flow, unit: f64, plan: &Plan, speed: f64) 
 /// The spline degree that the plan calls for.
 fn run_degree<M: Constitutive<Axisymmetric>>(material: M, plan: &Plan, speed: f64) -> Record {
     let (grid, layout) = (&plan.grid, plan.scheme.layout);
+    if plan.scheme.reference == Reference::Present {
+        return match grid.degree {
+            1 => Updated::<M, 1, 4>::new(plan, material, speed).finish(),
+            2 => Updated::<M, 2, 9>::new(plan, material, speed).finish(),
+            _ => Updated::<M, 3, 16>::new(plan, material, speed).finish(),
+        };
+    }
     let tolerance = CONTACT_TOLERANCE * speed;
     match grid.degree {
         1 => run_transfer(
@@ -249,7 +258,7 @@ where
         let horizon = 2.0 * interval * self.dt;
         self.model
             .contact
-            .refresh(&self.u, 2.0 * self.speed, horizon);
+            .refresh(self.transfer.travel(&self.u), 2.0 * self.speed, horizon);
     }
 
     /// Stability limit of the present configuration.
@@ -287,10 +296,10 @@ where
                 *v += dt * f * w;
             }
         }
-        let touch =
-            self.model
-                .contact
-                .solve(dt, &self.u, &self.old, &mut self.v, &self.model.recip_mass);
+        let travel = self.transfer.travel(&self.u);
+        let recip_mass = &self.model.recip_mass;
+        let contact = &mut self.model.contact;
+        let touch = contact.solve(dt, travel, &self.old, &mut self.v, recip_mass);
         self.impulse += touch.impulse;
         self.contact_work += touch.work;
         self.contact_radius = self.contact_radius.max(touch.radius);

@@ -24,6 +24,12 @@ pub struct StepEnd<'a, V> {
 pub trait Remap<V> {
     /// Map the velocity `v` through the points; returns the energy that the body gains by it (negative: a loss).
     fn remap(&mut self, step: StepEnd<V>, v: &mut [V]) -> f64;
+    /// Displacement of the points as a nodal field, from which contact takes its gaps: that of the nodes, unless points
+    /// move with the velocity before it is mapped.
+    #[inline(always)]
+    fn travel<'a>(&'a self, u: &'a [V]) -> &'a [V] {
+        u
+    }
     /// Memory, bytes.
     fn bytes(&self) -> usize;
 }
@@ -54,6 +60,7 @@ pub struct Carriers<V, const N: usize> {
     carriers: Vec<Carrier<N>>,
     offsets: [usize; N],
     mapped: Vec<V>,
+    travel: Vec<V>,
 }
 
 impl<V: Copy + Default + AsRef<[f64]> + AsMut<[f64]>, const N: usize> Carriers<V, N> {
@@ -74,10 +81,11 @@ impl<V: Copy + Default + AsRef<[f64]> + AsMut<[f64]>, const N: usize> Carriers<V
             carriers: points.iter().map(carry).collect(),
             offsets,
             mapped: vec![V::default(); nodes],
+            travel: vec![V::default(); nodes],
         }
     }
 
-    /// Momentum of the carriers on the nodes, over their mass, into `v`; returns the energy gained by the change.
+    /// Move on with `v`, then replace it by the momentum of the carriers over the nodal mass; returns the energy gained.
     fn deposit(&mut self, step: &StepEnd<V>, v: &mut [V]) -> f64 {
         let mut gain = 0.0;
         for (n, v) in v.iter_mut().enumerate() {
@@ -85,6 +93,7 @@ impl<V: Copy + Default + AsRef<[f64]> + AsMut<[f64]>, const N: usize> Carriers<V
                 let new = self.mapped[n].as_ref()[k] * step.recip_mass[n].as_ref()[k];
                 gain += 0.5 * step.mass[n] * (new * new - *v * *v)
                     + 0.5 * step.dt * step.force[n].as_ref()[k] * (*v - new);
+                self.travel[n].as_mut()[k] += step.dt * *v;
                 *v = new;
             }
         }
@@ -92,7 +101,7 @@ impl<V: Copy + Default + AsRef<[f64]> + AsMut<[f64]>, const N: usize> Carriers<V
     }
 
     fn size(&self) -> usize {
-        std::mem::size_of_val(&self.carriers[..]) + std::mem::size_of_val(&self.mapped[..])
+        std::mem::size_of_val(&self.carriers[..]) + 2 * std::mem::size_of_val(&self.mapped[..])
     }
 }
 
@@ -111,6 +120,7 @@ impl<V: Copy + Default + AsRef<[f64]> + AsMut<[f64]>, const N: usize> Remap<V> f
             carriers,
             offsets,
             mapped,
+            ..
         } = &mut self.carriers;
         mapped.fill(V::default());
         for p in carriers {
@@ -134,6 +144,10 @@ impl<V: Copy + Default + AsRef<[f64]> + AsMut<[f64]>, const N: usize> Remap<V> f
             }
         }
         self.carriers.deposit(&step, v)
+    }
+
+    fn travel<'a>(&'a self, _: &'a [V]) -> &'a [V] {
+        &self.carriers.travel
     }
 
     fn bytes(&self) -> usize {
@@ -202,6 +216,7 @@ impl<V: Copy + Default + AsRef<[f64]> + AsMut<[f64]>, const N: usize> Remap<V> f
             carriers,
             offsets,
             mapped,
+            ..
         } = &mut self.carriers;
         mapped.fill(V::default());
         for (p, arms) in carriers.iter_mut().zip(&self.arms) {
@@ -224,6 +239,10 @@ impl<V: Copy + Default + AsRef<[f64]> + AsMut<[f64]>, const N: usize> Remap<V> f
             }
         }
         self.carriers.deposit(&step, v)
+    }
+
+    fn travel<'a>(&'a self, _: &'a [V]) -> &'a [V] {
+        &self.carriers.travel
     }
 
     fn bytes(&self) -> usize {

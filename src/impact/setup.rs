@@ -32,7 +32,8 @@ pub struct Model<S: Space, M: Constitutive<S>, W: Wall<S>, const N: usize> {
 }
 
 /// The tensor grid of the axisymmetric section.
-struct Section<const P: usize> {
+#[derive(Debug, Clone)]
+pub struct Section<const P: usize> {
     r: Direction<P>,
     z: Direction<P>,
 }
@@ -46,8 +47,44 @@ impl<const P: usize> Section<P> {
         }
     }
 
-    fn node(&self, i: usize, j: usize) -> usize {
+    /// Uniform cells of about `size` over a width and a height.
+    #[must_use]
+    pub fn uniform(size: f64, (width, height): (f64, f64)) -> Self {
+        let breaks = |length| graded(length, size, length, 1.0, size);
+        Section {
+            r: Direction::new(breaks(width)),
+            z: Direction::new(breaks(height)),
+        }
+    }
+
+    /// First node of cell (i, j).
+    #[must_use]
+    pub fn node(&self, i: usize, j: usize) -> usize {
         j * self.r.functions() + i
+    }
+
+    /// Nodes.
+    #[must_use]
+    pub fn nodes(&self) -> usize {
+        self.r.functions() * self.z.functions()
+    }
+
+    /// Whether a node lies on the axis, where nothing moves sideways.
+    #[must_use]
+    pub fn is_on_axis(&self, node: usize) -> bool {
+        node % self.r.functions() == 0
+    }
+
+    /// Way from a cell's first node to its others.
+    #[must_use]
+    pub fn offsets<const N: usize>(&self) -> [usize; N] {
+        std::array::from_fn(|n| self.node(n % (P + 1), n / (P + 1)))
+    }
+
+    /// Cell that holds (r, z).
+    #[must_use]
+    pub fn cell_of(&self, r: f64, z: f64) -> (usize, usize) {
+        (self.r.cell_of(r), self.z.cell_of(z))
     }
 
     /// First node of the cell that holds (r, z), and the values of its nodes there.
@@ -59,7 +96,8 @@ impl<const P: usize> Section<P> {
     }
 
     /// Material point at (r, z): weights $N_{,r}$, $N_{,z}$, $N/r$ of its nodes.
-    fn point<const N: usize>(&self, i: usize, j: usize, r: f64, z: f64, area: f64) -> Point<N> {
+    #[must_use]
+    pub fn point<const N: usize>(&self, i: usize, j: usize, r: f64, z: f64, area: f64) -> Point<N> {
         let (br, bz) = (self.r.evaluate(i, r), self.z.evaluate(j, z));
         Point {
             position: [r, z, 0.0],
@@ -86,8 +124,8 @@ pub fn build<M: Constitutive<Axisymmetric>, const P: usize, const N: usize>(
 ) -> Model<Axisymmetric, M, Contact<Axisymmetric, N>, N> {
     const { assert!(N == (P + 1) * (P + 1)) };
     let section = Section::<P>::new(grid);
-    let offsets: [usize; N] = std::array::from_fn(|n| section.node(n % (P + 1), n / (P + 1)));
-    let nodes = section.r.functions() * section.z.functions();
+    let offsets: [usize; N] = section.offsets();
+    let nodes = section.nodes();
     let mut mass = vec![0.0; nodes];
     let mut points = Points::new(material, offsets);
     let lattice = section.lattice(layout);
@@ -190,7 +228,8 @@ impl<const P: usize> Section<P> {
 
     /// Greville points of all nodes.
     fn places(&self) -> Vec<[f64; 2]> {
-        let row = |j| (0..self.r.functions()).map(move |i| [self.r.greville(i), self.z.greville(j)]);
+        let row =
+            |j| (0..self.r.functions()).map(move |i| [self.r.greville(i), self.z.greville(j)]);
         (0..self.z.functions()).flat_map(row).collect()
     }
 }
