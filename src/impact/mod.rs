@@ -6,7 +6,9 @@
 pub mod banded;
 pub mod basis;
 pub mod body;
+mod choice;
 pub mod contact;
+pub mod deformation;
 pub mod kernel;
 pub mod lattice;
 pub mod record;
@@ -16,19 +18,17 @@ pub mod timestep;
 pub mod updated;
 
 use crate::curve::{Impact, ParticleMap, Status};
-use crate::material::flow::{FlowStress, LinearHardening, PerfectlyPlastic};
-use crate::material::stress::{Constitutive, Elastic, J2, Moduli};
-use crate::material::{Flow, Material};
+use crate::material::Material;
+use crate::material::stress::{Constitutive, Elastic, Moduli};
 use crate::plan::Plan;
-use crate::scheme::{Reference, TimeStep, Transfer};
-use crate::space::{Axisymmetric, Space};
+use crate::scheme::TimeStep;
+use crate::space::Space;
 use contact::Wall;
 use kernel::Purpose;
 use record::{Frame, Record, Snapshot};
-use remap::{Apic, Blend, Carriers, Remap, StepEnd};
+use remap::{Remap, StepEnd};
 use setup::Model;
 use timestep::StabilityLimit;
-use updated::Updated;
 
 /// Outputs over the expected contact time.
 const OUTPUTS: f64 = 400.0;
@@ -65,8 +65,8 @@ pub fn simulate(material: &Material, radius: f64, plan: &Plan) -> Simulated {
     let started = std::time::Instant::now();
     let speed = plan.velocity / (material.young_modulus / material.density).sqrt();
     let record = match material.flow.filter(|_| plan.plastic) {
-        None => run_degree(Elastic { moduli }, plan, speed),
-        Some(flow) => run_plastic(moduli, &flow, material.young_modulus, plan, speed),
+        None => choice::run_degree(Elastic { moduli }, plan, speed),
+        Some(flow) => choice::run_plastic(moduli, &flow, material.young_modulus, plan, speed),
     };
     let seconds = started.elapsed().as_secs_f64();
     Simulated {
@@ -75,78 +75,6 @@ pub fn simulate(material: &Material, radius: f64, plan: &Plan) -> Simulated {
         rebound: record.rebound.map(material, radius),
         memory_bytes: record.memory_bytes,
         transfer_loss: record.transfer_loss,
-    }
-}
-
-/// The flow stress that the material calls for.
-fn run_plastic(moduli: Moduli, flow: &Flow, unit: f64, plan: &Plan, speed: f64) -> Record {
-    fn with<F: FlowStress>(moduli: Moduli, flow: F, plan: &Plan, speed: f64) -> Record {
-        run_degree(J2 { moduli, flow }, plan, speed)
-    }
-    let strength = flow.yield_strength / unit;
-    if flow.hardening_modulus > 0.0 {
-        let modulus = flow.hardening_modulus / unit;
-        with(moduli, LinearHardening { strength, modulus }, plan, speed)
-    } else {
-        with(moduli, PerfectlyPlastic { strength }, plan, speed)
-    }
-}
-
-/// The spline degree that the plan calls for.
-fn run_degree<M: Constitutive<Axisymmetric>>(material: M, plan: &Plan, speed: f64) -> Record {
-    let (grid, layout) = (&plan.grid, plan.scheme.layout);
-    if plan.scheme.reference == Reference::Present {
-        return match grid.degree {
-            1 => Updated::<M, 1, 4>::new(plan, material, speed).finish(),
-            2 => Updated::<M, 2, 9>::new(plan, material, speed).finish(),
-            _ => Updated::<M, 3, 16>::new(plan, material, speed).finish(),
-        };
-    }
-    let tolerance = CONTACT_TOLERANCE * speed;
-    match grid.degree {
-        1 => run_transfer(
-            setup::build::<M, 1, 4>(grid, layout, material, tolerance),
-            plan,
-            speed,
-        ),
-        2 => run_transfer(
-            setup::build::<M, 2, 9>(grid, layout, material, tolerance),
-            plan,
-            speed,
-        ),
-        _ => run_transfer(
-            setup::build::<M, 3, 16>(grid, layout, material, tolerance),
-            plan,
-            speed,
-        ),
-    }
-}
-
-/// The transfer of velocity that the plan calls for.
-fn run_transfer<M, W, const N: usize>(
-    model: Model<Axisymmetric, M, W, N>,
-    plan: &Plan,
-    speed: f64,
-) -> Record
-where
-    M: Constitutive<Axisymmetric>,
-    W: Wall<Axisymmetric>,
-{
-    let points = model.points.unpacked();
-    let carriers = || {
-        let start = [0.0, -speed];
-        Carriers::new(points, model.points.offsets(), model.mass.len(), start)
-    };
-    match plan.scheme.transfer {
-        Transfer::Persistent => Run::new(model, (), plan, speed).finish(),
-        Transfer::Blend(flip) => {
-            let carriers = carriers();
-            Run::new(model, Blend { carriers, flip }, plan, speed).finish()
-        }
-        Transfer::Apic => {
-            let apic = Apic::new(carriers(), points, &setup::places(&plan.grid));
-            Run::new(model, apic, plan, speed).finish()
-        }
     }
 }
 

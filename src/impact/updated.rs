@@ -6,6 +6,7 @@
 
 use crate::curve::Status;
 use crate::impact::contact::{Contact, Wall};
+use crate::impact::deformation::{Deformation, gradient, pulled_back};
 use crate::impact::kernel::PointView;
 use crate::impact::record::{Frame, Record, Snapshot};
 use crate::impact::setup::Section;
@@ -17,13 +18,9 @@ use crate::scheme::{Layout, TimeStep, Transfer};
 use crate::space::{Axisymmetric, Space, Symmetric};
 use std::f64::consts::PI;
 
-/// Width and height of the grid: room for a body that spreads and rebounds.
+/// Width and height of the grid.
 const ROOM: (f64, f64) = (1.5, 2.8);
-/// Points a diameter where the plan has no lattice.
 const USUAL: f64 = 50.0;
-
-/// Deformation gradient as numbers: rr, rz, zr, zz, hoop.
-type Deformation = [f64; 5];
 
 /// A point on its way.
 #[derive(Debug, Clone, Copy)]
@@ -34,7 +31,6 @@ struct Mover<T> {
     deformation: Deformation,
     volume: f64,
     state: T,
-    /// Answer of the material after the last step.
     mean: f64,
     shear_norm: f64,
 }
@@ -55,7 +51,6 @@ pub struct Updated<'a, M: Constitutive<Axisymmetric>, const P: usize, const N: u
     offsets: [usize; N],
     movers: Vec<Mover<M::State>>,
     reaches: Vec<Reach<N>>,
-    /// Points of the surface and what their height is above the wall when their own is this.
     surface: Vec<usize>,
     sole: f64,
     mass: Vec<f64>,
@@ -98,7 +93,6 @@ impl<'a, M: Constitutive<Axisymmetric>, const P: usize, const N: usize> Updated<
         };
         let dt = match plan.scheme.time_step {
             TimeStep::Fixed(dt) => dt,
-            // a tenth of the time in which a wave crosses a cell
             TimeStep::Stable => 0.1 * plan.grid.fine / material.moduli().dilatational_speed(1.0),
         };
         Updated {
@@ -403,24 +397,4 @@ impl<'a, M: Constitutive<Axisymmetric>, const P: usize, const N: usize> Updated<
             frames,
         }
     }
-}
-
-/// $F^T \nabla N$ for weights $N_{,r}$, $N_{,z}$, $N/r$.
-fn pulled_back(w: &[f64; 3], f: &Deformation) -> [f64; 3] {
-    let [rr, rz, zr, zz, hoop] = f;
-    [w[0] * rr + w[1] * zr, w[0] * rz + w[1] * zz, w[2] * hoop]
-}
-
-/// The same numbers as the space's gradient.
-fn gradient(f: &Deformation) -> <Axisymmetric as Space>::Gradient {
-    let [rr, rz, zr, zz, hoop] = *f;
-    let lanes = |w: [f64; 3]| w.map(Lanes::splat);
-    let mut gradient = Axisymmetric::identity();
-    Axisymmetric::add_node(
-        &mut gradient,
-        &[1.0, 0.0],
-        &lanes([rr - 1.0, rz, hoop - 1.0]),
-    );
-    Axisymmetric::add_node(&mut gradient, &[0.0, 1.0], &lanes([zr, zz - 1.0, 0.0]));
-    gradient
 }

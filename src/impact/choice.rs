@@ -1,0 +1,96 @@
+//! Choice: flow stress, degree and scheme of a plan become concrete types once, before the loop.
+
+use super::contact::Wall;
+use super::record::Record;
+use super::remap::{Apic, Blend, Carriers};
+use super::setup::{self, Model};
+use super::updated::Updated;
+use super::{CONTACT_TOLERANCE, Run};
+use crate::material::Flow;
+use crate::material::flow::{FlowStress, LinearHardening, PerfectlyPlastic};
+use crate::material::stress::{Constitutive, J2, Moduli};
+use crate::plan::Plan;
+use crate::scheme::{Reference, Transfer};
+use crate::space::Axisymmetric;
+
+/// The flow stress that the material calls for.
+pub(super) fn run_plastic(
+    moduli: Moduli,
+    flow: &Flow,
+    unit: f64,
+    plan: &Plan,
+    speed: f64,
+) -> Record {
+    fn with<F: FlowStress>(moduli: Moduli, flow: F, plan: &Plan, speed: f64) -> Record {
+        run_degree(J2 { moduli, flow }, plan, speed)
+    }
+    let strength = flow.yield_strength / unit;
+    if flow.hardening_modulus > 0.0 {
+        let modulus = flow.hardening_modulus / unit;
+        with(moduli, LinearHardening { strength, modulus }, plan, speed)
+    } else {
+        with(moduli, PerfectlyPlastic { strength }, plan, speed)
+    }
+}
+
+/// The spline degree that the plan calls for.
+pub(super) fn run_degree<M: Constitutive<Axisymmetric>>(
+    material: M,
+    plan: &Plan,
+    speed: f64,
+) -> Record {
+    let (grid, layout) = (&plan.grid, plan.scheme.layout);
+    if plan.scheme.reference == Reference::Present {
+        return match grid.degree {
+            1 => Updated::<M, 1, 4>::new(plan, material, speed).finish(),
+            2 => Updated::<M, 2, 9>::new(plan, material, speed).finish(),
+            _ => Updated::<M, 3, 16>::new(plan, material, speed).finish(),
+        };
+    }
+    let tolerance = CONTACT_TOLERANCE * speed;
+    match grid.degree {
+        1 => run_transfer(
+            setup::build::<M, 1, 4>(grid, layout, material, tolerance),
+            plan,
+            speed,
+        ),
+        2 => run_transfer(
+            setup::build::<M, 2, 9>(grid, layout, material, tolerance),
+            plan,
+            speed,
+        ),
+        _ => run_transfer(
+            setup::build::<M, 3, 16>(grid, layout, material, tolerance),
+            plan,
+            speed,
+        ),
+    }
+}
+
+/// The transfer of velocity that the plan calls for.
+fn run_transfer<M, W, const N: usize>(
+    model: Model<Axisymmetric, M, W, N>,
+    plan: &Plan,
+    speed: f64,
+) -> Record
+where
+    M: Constitutive<Axisymmetric>,
+    W: Wall<Axisymmetric>,
+{
+    let points = model.points.unpacked();
+    let carriers = || {
+        let start = [0.0, -speed];
+        Carriers::new(points, model.points.offsets(), model.mass.len(), start)
+    };
+    match plan.scheme.transfer {
+        Transfer::Persistent => Run::new(model, (), plan, speed).finish(),
+        Transfer::Blend(flip) => {
+            let carriers = carriers();
+            Run::new(model, Blend { carriers, flip }, plan, speed).finish()
+        }
+        Transfer::Apic => {
+            let apic = Apic::new(carriers(), points, &setup::places(&plan.grid));
+            Run::new(model, apic, plan, speed).finish()
+        }
+    }
+}
