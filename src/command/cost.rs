@@ -111,15 +111,8 @@ impl Job<'_> {
     /// The run of a rung: read if it is there, else simulated and kept.
     fn finished(&self, rung: &Rung) -> Result<Finished> {
         let folder = self.folder(rung);
-        let path = folder.join("footprint.json");
         if folder.join("summary.json").is_file() {
-            let text = std::fs::read_to_string(&path).map_err(Error::file("read", &path))?;
-            let footprint =
-                serde_json::from_str(&text).map_err(|e| Error::file("read", &path)(e.into()))?;
-            return Ok(Finished {
-                impact: Impact::read(&folder)?,
-                footprint,
-            });
+            return kept(&folder);
         }
         let before = processor_time();
         let done = simulate(&self.case.material, self.case.radius, &rung.plan);
@@ -136,10 +129,8 @@ impl Job<'_> {
         // the summary comes last: it says that all is there
         write_atomic(&path, text.as_bytes())?;
         done.impact.write(&folder, &self.provenance)?;
-        Ok(Finished {
-            impact: done.impact,
-            footprint,
-        })
+        // read back: JSON may change a last digit, and a second call must show the same
+        kept(&folder)
     }
 
     fn write(&self, rows: &[Row], left_out: &[(String, f64)]) -> Result<()> {
@@ -157,6 +148,18 @@ impl Job<'_> {
         figure(rows, format!("cost_V{speed}"))?.write(self.out)?;
         print(&text)
     }
+}
+
+/// A run that was kept in `folder`.
+fn kept(folder: &Path) -> Result<Finished> {
+    let path = folder.join("footprint.json");
+    let text = std::fs::read_to_string(&path).map_err(Error::file("read", &path))?;
+    let footprint =
+        serde_json::from_str(&text).map_err(|e| Error::file("read", &path)(e.into()))?;
+    Ok(Finished {
+        impact: Impact::read(folder)?,
+        footprint,
+    })
 }
 
 /// Processor time of this thread so far, s, where the system tells.
