@@ -124,6 +124,7 @@ impl Job<'_> {
                 _ => done.impact.summary.wall_s,
             },
         };
+        let path = folder.join("footprint.json");
         let text =
             serde_json::to_string(&footprint).map_err(|e| Error::file("write", &path)(e.into()))?;
         // the summary comes last: it says that all is there
