@@ -2,7 +2,7 @@
 
 use crate::document::Document;
 use crate::material::{Flow, Material};
-use crate::unit::{self, Density, Length, Pressure, Quantity, Velocity};
+use crate::unit::{self, Angle, Density, Length, Pressure, Quantity, Velocity};
 use crate::{Error, Result};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
@@ -22,6 +22,10 @@ pub struct Case {
     pub material: Material,
     /// Impact speeds, m/s, ascending.
     pub velocities: Vec<f64>,
+    /// Angle of the impact velocity from the wall's normal, rad; 0 for a normal impact.
+    pub angle: f64,
+    /// Coulomb friction coefficient of the wall; 0 for a frictionless one.
+    pub friction: f64,
     /// Accuracy asked for, relative, on F*, delta* and e.
     pub tolerance: f64,
     /// Bed scene to run with the law, resolved against the case file's folder.
@@ -35,6 +39,7 @@ struct CaseFile {
     particle: ParticleTable,
     material: MaterialTable,
     impact: ImpactTable,
+    wall: Option<WallTable>,
     accuracy: AccuracyTable,
     bed: Option<BedTable>,
 }
@@ -60,6 +65,13 @@ pub(crate) struct MaterialTable {
 #[serde(deny_unknown_fields)]
 struct ImpactTable {
     velocities: Vec<Quantity<Velocity>>,
+    angle: Option<Quantity<Angle>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WallTable {
+    friction: f64,
 }
 
 #[derive(Debug, Deserialize)]
@@ -125,6 +137,8 @@ impl Case {
             radius: document.positive("particle.radius", file.particle.radius)?,
             material: file.material.check(document)?,
             velocities: file.impact.check(document)?,
+            angle: file.impact.angle(document)?,
+            friction: file.wall.map_or(Ok(0.0), |wall| wall.check(document))?,
             tolerance: document.check(
                 "accuracy.tolerance",
                 file.accuracy.tolerance,
@@ -231,6 +245,30 @@ impl ImpactTable {
         }
         velocities.sort_by(f64::total_cmp);
         Ok(velocities)
+    }
+}
+
+impl ImpactTable {
+    fn angle(&self, document: &Document) -> Result<f64> {
+        self.angle.map_or(Ok(0.0), |angle| {
+            document.check(
+                "impact.angle",
+                angle.si(),
+                |angle| (0.0..=85f64.to_radians()).contains(&angle),
+                "must lie in [0 deg, 85 deg], measured from the wall's normal",
+            )
+        })
+    }
+}
+
+impl WallTable {
+    fn check(self, document: &Document) -> Result<f64> {
+        document.check(
+            "wall.friction",
+            self.friction,
+            |friction| (0.0..=2.0).contains(&friction),
+            "must lie in [0, 2]",
+        )
     }
 }
 

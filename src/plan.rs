@@ -8,7 +8,18 @@ use crate::material::{Material, YIELD_PRESSURE_RATIO};
 use crate::unit::{engineering, significant};
 use std::f64::consts::PI;
 
-/// Background grid of the axisymmetric section, lengths in R.
+/// Part of the sphere that is simulated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Geometry {
+    /// The section (r, z): normal impact, no friction.
+    Axisymmetric,
+    /// Three dimensions, x >= 0 and y >= 0: normal impact.
+    Quarter,
+    /// Three dimensions, y >= 0: oblique impact along x.
+    Half,
+}
+
+/// Background grid, lengths in R.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Grid {
     /// Degree of the B-splines, 1 to 3.
@@ -17,7 +28,7 @@ pub struct Grid {
     pub points_per_direction: usize,
     /// Cell size at the contact pole.
     pub fine: f64,
-    /// Distance from the axis up to which cells stay fine.
+    /// Distance from the impact axis up to which cells stay fine.
     pub fine_width: f64,
     /// Height above the pole up to which cells stay fine.
     pub fine_depth: f64,
@@ -56,6 +67,12 @@ pub struct Estimate {
 pub struct Plan {
     /// Impact speed, m/s.
     pub velocity: f64,
+    /// Angle of the impact velocity from the wall's normal, rad.
+    pub angle: f64,
+    /// Friction coefficient of the wall.
+    pub friction: f64,
+    /// Part of the sphere that is simulated.
+    pub geometry: Geometry,
     /// Expected size of the impact.
     pub estimate: Estimate,
     /// Effects, on or off, with reasons.
@@ -78,6 +95,8 @@ pub struct Plan {
 
 /// Point-steps a second and core that predictions assume (axisymmetric quadratic J2, measured; see benches/).
 const THROUGHPUT: f64 = 1.5e7;
+/// The same for three dimensions.
+const SOLID_THROUGHPUT: f64 = 6e6;
 
 /// Mean contact pressure over yield strength when fully plastic, used for estimates only (Tabor).
 const PLASTIC_PRESSURE_RATIO: f64 = 2.8;
@@ -112,13 +131,25 @@ pub fn estimate(material: &Material, velocity: f64) -> Estimate {
 #[must_use]
 pub fn plan(case: &Case, velocity: f64) -> Plan {
     let material = &case.material;
-    let estimate = estimate(material, velocity);
-    let (effects, plastic) = effects(case, velocity);
-    let grid = grid(&estimate, case.tolerance);
+    let normal = velocity * case.angle.cos();
+    let estimate = estimate(material, normal);
+    let geometry = geometry(case);
+    let (effects, plastic) = effects(case, normal);
+    let grid = match geometry {
+        Geometry::Axisymmetric => grid(&estimate, case.tolerance),
+        _ => solid_grid(&estimate, case),
+    };
     let ring_time = 1.5 * fundamental_period(material.poisson_ratio);
-    let (points, steps) = predict(&grid, material, &estimate, ring_time);
+    let (points, steps) = predict(&grid, geometry, material, &estimate, ring_time);
+    let throughput = match geometry {
+        Geometry::Axisymmetric => THROUGHPUT,
+        _ => SOLID_THROUGHPUT,
+    };
     Plan {
         velocity,
+        angle: case.angle,
+        friction: case.friction,
+        geometry,
         estimate,
         effects,
         plastic,
@@ -127,7 +158,7 @@ pub fn plan(case: &Case, velocity: f64) -> Plan {
         longest_time: 6.0 * estimate.contact_time + 4.0 * ring_time,
         points,
         steps,
-        seconds: points as f64 * steps as f64 / THROUGHPUT,
+        seconds: points as f64 * steps as f64 / throughput,
     }
 }
 
@@ -151,6 +182,34 @@ fn grid(estimate: &Estimate, tolerance: f64) -> Grid {
     }
 }
 
+/// Three dimensions where friction acts, with as many planes of symmetry as the impact has.
+fn geometry(case: &Case) -> Geometry {
+    match (case.angle > 0.0, case.friction > 0.0) {
+        // a frictionless wall feels nothing of the motion along it
+        (_, false) => Geometry::Axisymmetric,
+        (false, true) => Geometry::Quarter,
+        (true, true) => Geometry::Half,
+    }
+}
+
+/// Grid in three dimensions: coarser for the same tolerance, because the edge of the contact crosses cells at all angles and
+/// the staircase averages out. Fine cells also cover the way that the contact rolls over the surface.
+fn solid_grid(estimate: &Estimate, case: &Case) -> Grid {
+    let a = estimate.contact_radius;
+    let slip = case.angle.tan().min(7.0 * case.friction);
+    let rolled = 2.0 / 7.0 * slip * estimate.contact_time * estimate.displacement / 2.94;
+    Grid {
+        degree: 2,
+        points_per_direction: 2,
+        fine: a / (10.0 * (0.02 / case.tolerance).sqrt()).clamp(6.0, 20.0),
+        fine_width: (1.2 * a + rolled).min(1.0),
+        fine_depth: 0.6 * a,
+        growth: 1.3,
+        coarse: 0.15,
+        dt_share: 1.0,
+    }
+}
+
 /// Which effects the scene calls for.
 fn effects(case: &Case, velocity: f64) -> (Vec<Effect>, bool) {
     let yield_point = case.material.yield_point(case.radius, YIELD_PRESSURE_RATIO);
@@ -170,16 +229,33 @@ fn effects(case: &Case, velocity: f64) -> (Vec<Effect>, bool) {
         ),
     };
     let hardening = case.material.flow.map_or(0.0, |f| f.hardening_modulus);
+    let solid = geometry(case) != Geometry::Axisymmetric;
     let list = vec![
         Effect {
             name: "three dimensions",
-            on: false,
-            reason: "a normal impact on a plane is axisymmetric".to_owned(),
+            on: solid,
+            reason: match geometry(case) {
+                Geometry::Axisymmetric if case.angle > 0.0 => {
+                    "without friction only the normal velocity matters".to_owned()
+                }
+                Geometry::Axisymmetric => "a normal impact on a plane is axisymmetric".to_owned(),
+                Geometry::Quarter => {
+                    "friction acts in the wall; a quarter, two planes of symmetry".to_owned()
+                }
+                Geometry::Half => format!(
+                    "{} from the normal; a half, one plane of symmetry",
+                    engineering(case.angle.to_degrees(), "deg", 3)
+                ),
+            },
         },
         Effect {
             name: "friction",
-            on: false,
-            reason: "the wall is frictionless".to_owned(),
+            on: solid,
+            reason: if solid {
+                format!("coefficient {}", case.friction)
+            } else {
+                "the wall is frictionless".to_owned()
+            },
         },
         Effect {
             name: "plasticity",
@@ -213,12 +289,25 @@ pub fn fundamental_period(poisson_ratio: f64) -> f64 {
 }
 
 /// Points and steps of a run, from the grid alone.
-fn predict(grid: &Grid, material: &Material, estimate: &Estimate, ring: f64) -> (usize, u64) {
+fn predict(
+    grid: &Grid,
+    geometry: Geometry,
+    material: &Material,
+    estimate: &Estimate,
+    ring: f64,
+) -> (usize, u64) {
     let count =
         |length: f64, to: f64| graded(length, grid.fine, to, grid.growth, grid.coarse).len();
-    let cells = count(1.0, grid.fine_width) * count(2.0, grid.fine_depth);
-    let per_cell = grid.points_per_direction.pow(2) as f64;
-    let points = 0.8 * cells as f64 * per_cell;
+    let (across, up) = (
+        count(1.0, grid.fine_width) as f64,
+        count(2.0, grid.fine_depth) as f64,
+    );
+    let side = grid.points_per_direction as f64;
+    let points = match geometry {
+        Geometry::Axisymmetric => 0.8 * across * up * side.powi(2),
+        Geometry::Quarter => 0.6 * across.powi(2) * up * side.powi(3),
+        Geometry::Half => 1.2 * across.powi(2) * up * side.powi(3),
+    };
     let nu = material.poisson_ratio;
     let speed = ((1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu))).sqrt();
     let dt = 0.65 * grid.dt_share * grid.fine / speed;

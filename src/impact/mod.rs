@@ -3,24 +3,28 @@
 //! Runs in units R = 1, rho = 1, E = 1. Displacements and velocities live on the nodes of a grid that never moves, so
 //! there is no velocity transfer and no transfer loss; points carry only their plastic state.
 
+pub mod ball;
 pub mod banded;
 pub mod basis;
 pub mod body;
 pub mod contact;
 pub mod kernel;
+pub mod patch;
 pub mod record;
 pub mod setup;
+pub mod solid;
 pub mod timestep;
 
 use crate::curve::{Impact, ParticleMap, Status};
 use crate::material::flow::{FlowStress, LinearHardening, PerfectlyPlastic};
 use crate::material::stress::{Constitutive, Elastic, J2, Moduli};
 use crate::material::{Flow, Material};
-use crate::plan::Plan;
-use crate::space::{Axisymmetric, Space};
+use crate::plan::{Geometry, Plan};
+use crate::space::{Axisymmetric, Solid, Space};
 use contact::Wall;
-use kernel::Purpose;
-use record::{Frame, Record, Snapshot};
+use kernel::{PointView, Purpose};
+use patch::{Coulomb, Frictionless};
+use record::{Frame, Record, SectionView, Sliding, Snapshot};
 use setup::Model;
 use timestep::StabilityLimit;
 
@@ -55,7 +59,7 @@ pub fn simulate(material: &Material, radius: f64, plan: &Plan) -> Simulated {
     let started = std::time::Instant::now();
     let speed = plan.velocity / (material.young_modulus / material.density).sqrt();
     let record = match material.flow.filter(|_| plan.plastic) {
-        None => run_degree(Elastic { moduli }, plan, speed),
+        None => run_geometry(Elastic { moduli }, plan, speed),
         Some(flow) => run_plastic(moduli, &flow, material.young_modulus, plan, speed),
     };
     let seconds = started.elapsed().as_secs_f64();
@@ -69,7 +73,7 @@ pub fn simulate(material: &Material, radius: f64, plan: &Plan) -> Simulated {
 /// The flow stress that the material calls for.
 fn run_plastic(moduli: Moduli, flow: &Flow, unit: f64, plan: &Plan, speed: f64) -> Record {
     fn with<F: FlowStress>(moduli: Moduli, flow: F, plan: &Plan, speed: f64) -> Record {
-        run_degree(J2 { moduli, flow }, plan, speed)
+        run_geometry(J2 { moduli, flow }, plan, speed)
     }
     let strength = flow.yield_strength / unit;
     if flow.hardening_modulus > 0.0 {
@@ -77,6 +81,26 @@ fn run_plastic(moduli: Moduli, flow: &Flow, unit: f64, plan: &Plan, speed: f64) 
         with(moduli, LinearHardening { strength, modulus }, plan, speed)
     } else {
         with(moduli, PerfectlyPlastic { strength }, plan, speed)
+    }
+}
+
+/// The space, and in three dimensions the friction, that the plan calls for.
+fn run_geometry<M: Constitutive<Axisymmetric> + Constitutive<Solid>>(
+    material: M,
+    plan: &Plan,
+    speed: f64,
+) -> Record {
+    let tolerance = CONTACT_TOLERANCE * speed * plan.angle.cos();
+    let (grid, geometry) = (&plan.grid, plan.geometry);
+    if geometry == Geometry::Axisymmetric {
+        run_degree(material, plan, speed)
+    } else if plan.friction > 0.0 {
+        let coefficient = plan.friction;
+        let model = solid::build(grid, geometry, material, Coulomb { coefficient }, tolerance);
+        Run::new(model, plan, speed).finish()
+    } else {
+        let model = solid::build(grid, geometry, material, Frictionless, tolerance);
+        Run::new(model, plan, speed).finish()
     }
 }
 
@@ -120,6 +144,7 @@ struct Run<'a, S: Space, M: Constitutive<S>, W: Wall<S>, const N: usize> {
     step: u64,
     next_refresh: u64,
     impulse: f64,
+    tangential: f64,
     contact_work: f64,
     plastic: f64,
     contact_radius: f64,
@@ -134,11 +159,15 @@ struct Run<'a, S: Space, M: Constitutive<S>, W: Wall<S>, const N: usize> {
 impl<'a, S: Space, M: Constitutive<S>, W: Wall<S>, const N: usize> Run<'a, S, M, W, N> {
     fn new(model: Model<S, M, W, N>, plan: &'a Plan, speed: f64) -> Self {
         let nodes = model.mass.len();
-        let mut incident = S::Vector::default();
-        incident.as_mut()[S::NORMAL] = -speed;
         let mass = model.mass.iter().sum::<f64>();
+        let mut incident = S::Vector::default();
+        incident.as_mut()[S::NORMAL] = -speed * plan.angle.cos();
+        if let Some(axis) = S::SLIDING {
+            incident.as_mut()[axis] = speed * plan.angle.sin();
+        }
+        let kinetic: f64 = incident.as_ref().iter().map(|v| 0.5 * mass * v * v).sum();
         let first = Frame {
-            kinetic: 0.5 * mass * speed * speed,
+            kinetic,
             height: 2.0,
             ..Frame::default()
         };
@@ -156,6 +185,7 @@ impl<'a, S: Space, M: Constitutive<S>, W: Wall<S>, const N: usize> Run<'a, S, M,
             step: 0,
             next_refresh: 0,
             impulse: 0.0,
+            tangential: 0.0,
             contact_work: 0.0,
             plastic: 0.0,
             contact_radius: 0.0,
@@ -239,6 +269,7 @@ impl<'a, S: Space, M: Constitutive<S>, W: Wall<S>, const N: usize> Run<'a, S, M,
                 .contact
                 .solve(dt, &self.u, &self.old, &mut self.v, &self.model.recip_mass);
         self.impulse += touch.impulse;
+        self.tangential += touch.tangential;
         self.contact_work += touch.work;
         self.contact_radius = self.contact_radius.max(touch.radius);
         if touch.impulse > 0.0 {
@@ -302,7 +333,7 @@ impl<'a, S: Space, M: Constitutive<S>, W: Wall<S>, const N: usize> Run<'a, S, M,
             kinetic,
             elastic,
             plastic: self.plastic,
-            height: 2.0 + along(north) - along(south),
+            height: self.height(north, south),
         };
         self.contact_radius = 0.0;
         self.frames.push(frame);
@@ -311,10 +342,64 @@ impl<'a, S: Space, M: Constitutive<S>, W: Wall<S>, const N: usize> Run<'a, S, M,
         }
     }
 
+    /// Distance of the poles.
+    fn height(&self, north: &[(usize, f64)], south: &[(usize, f64)]) -> f64 {
+        let mut squared = 0.0;
+        for axis in 0..S::Vector::default().as_ref().len() {
+            let along = |marker: &[(usize, f64)]| -> f64 {
+                marker
+                    .iter()
+                    .map(|(n, w)| w * self.u[*n].as_ref()[axis])
+                    .sum()
+            };
+            let rest = if axis == S::NORMAL { 2.0 } else { 0.0 };
+            let distance = rest + along(north) - along(south);
+            squared += distance * distance;
+        }
+        squared.sqrt()
+    }
+
+    /// Motion along the wall so far, where there can be any.
+    fn sliding(&self) -> Option<Sliding> {
+        let axis = S::SLIDING?;
+        let centre: Vec<f64> = (0..S::Vector::default().as_ref().len())
+            .map(|k| self.mean(&self.u, k) + self.mean(&self.model.places, k))
+            .collect();
+        let mut momentum = 0.0;
+        for (n, mass) in self.model.mass.iter().enumerate() {
+            let mut arm = self.u[n];
+            for (k, x) in arm.as_mut().iter_mut().enumerate() {
+                *x += self.model.places[n].as_ref()[k] - centre[k];
+            }
+            momentum += mass * S::moment(&arm, &self.v[n]);
+        }
+        Some(Sliding {
+            incident: self.speed * self.plan.angle.sin(),
+            exit: self.mean(&self.v, axis),
+            spin: momentum / (0.4 * self.mass),
+            impulse_ratio: -self.tangential / self.impulse,
+        })
+    }
+
     /// The particle as it is now.
     fn snapshot(&self) -> Snapshot {
+        let model = &self.model;
+        let seen = |p: PointView| {
+            let volume = p.volume / model.copies;
+            let depth = self.plan.grid.fine;
+            S::section(&p.position, &p.reference, volume, depth).map(|place| SectionView {
+                place,
+                plastic_strain: p.plastic_strain,
+                von_mises: p.von_mises,
+            })
+        };
         Snapshot {
-            points: self.model.points.view(&self.u),
+            points: model
+                .points
+                .view(&self.u)
+                .into_iter()
+                .filter_map(seen)
+                .collect(),
             outline: self.model.contact.outline(&self.u),
         }
     }
@@ -322,6 +407,7 @@ impl<'a, S: Space, M: Constitutive<S>, W: Wall<S>, const N: usize> Run<'a, S, M,
     fn into_record(self) -> Record {
         let exit_speed = self.mean(&self.v, S::NORMAL);
         let rebound = self.snapshot();
+        let sliding = self.sliding();
         let status = match self.failure {
             Some(reason) => Status::Failed(format!("step {}: {reason}", self.step)),
             None if self.time > self.plan.longest_time => Status::NoRebound,
@@ -330,7 +416,8 @@ impl<'a, S: Space, M: Constitutive<S>, W: Wall<S>, const N: usize> Run<'a, S, M,
         Record {
             contact_end: self.contact_end,
             exit_speed,
-            speed: self.speed,
+            speed: self.speed * self.plan.angle.cos(),
+            sliding,
             closure: self.closure,
             plastic_strain: self.model.points.plastic_strain_volume() / self.mass,
             points: self.model.points.count(),

@@ -24,6 +24,10 @@ pub struct Model<S: Space, M: Constitutive<S>, W: Wall<S>, const N: usize> {
     pub mass: Vec<f64>,
     /// Reciprocal masses by component; 0 where the component is fixed (radial on the axis) or nothing is there.
     pub recip_mass: Vec<S::Vector>,
+    /// Coefficients that make the nodes' functions the reference coordinates.
+    pub places: Vec<S::Vector>,
+    /// Equal parts of the body, of which the grid holds one that carries the volume of all.
+    pub copies: f64,
     /// South pole, centre and north pole of the sphere as interpolations of the nodes.
     pub markers: [Vec<(usize, f64)>; 3],
 }
@@ -45,6 +49,13 @@ impl<const P: usize> Section<P> {
 
     fn node(&self, i: usize, j: usize) -> usize {
         j * self.r.functions() + i
+    }
+
+    /// Coefficients that make the functions the coordinates r and z.
+    fn places(&self) -> Vec<[f64; 2]> {
+        let columns = self.r.functions();
+        let place = |n: usize| [self.r.greville(n % columns), self.z.greville(n / columns)];
+        (0..columns * self.z.functions()).map(place).collect()
     }
 
     /// First node of the cell that holds (r, z), and the values of its nodes there.
@@ -120,6 +131,8 @@ pub fn build<M: Constitutive<Axisymmetric>, const P: usize, const N: usize>(
         contact,
         recip_mass,
         markers: [marker(0.0), marker(1.0), marker(2.0)],
+        places: section.places(),
+        copies: 1.0,
         mass,
     }
 }
