@@ -40,6 +40,7 @@ fn summary(velocity_m_s: f64, status: Status) -> Summary {
         points: 20_000,
         steps: 123_456,
         wall_s: 2.0,
+        tangential: None,
         status,
     }
 }
@@ -58,6 +59,8 @@ fn page(case: &Case) -> RunPage<'_> {
         maps: Vec::new(),
         fit: None,
         comparison: Vec::new(),
+        angle: 0.0,
+        friction: 0.0,
         bed: None,
         references: Vec::new(),
         limits: Vec::new(),

@@ -361,7 +361,7 @@ impl<'a, S: Space, M: Constitutive<S>, W: Wall<S>, const N: usize> Run<'a, S, M,
 
     /// Motion along the wall so far, where there can be any.
     fn sliding(&self) -> Option<Sliding> {
-        let axis = S::SLIDING?;
+        let axis = S::SLIDING.filter(|_| self.plan.geometry == Geometry::Half)?;
         let centre: Vec<f64> = (0..S::Vector::default().as_ref().len())
             .map(|k| self.mean(&self.u, k) + self.mean(&self.model.places, k))
             .collect();

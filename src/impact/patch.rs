@@ -6,7 +6,9 @@
 //! $$ \tfrac12 \sum_{cd} \lambda_c \cdot W_{cd} \lambda_d + \sum_c b_c \cdot \lambda_c, \qquad |\lambda_c| \le \mu \lambda^n_c $$
 //!
 //! with the sliding velocities $b_c$: where the bound is not reached the point sticks, elsewhere it slides against the
-//! impulse. Both are convex and are solved by projected Gauss-Seidel in alternating directions, warm-started from the last
+//! impulse. The bound takes the normal force of a point with a short memory, $\dot s = (F - s)/\tau$ (Prakash and Clifton;
+//! Ranjith and Rice 2001): with the instantaneous force, sliding of an elastic body on a rigid one is ill-posed, and slip
+//! waves grow from cell size until points stick that should slide. Both problems are convex and are solved by projected Gauss-Seidel in alternating directions, warm-started from the last
 //! step. One point a cell keeps W well conditioned; a few sweeps of some 25 entries a point suffice.
 
 use crate::impact::contact::{Touch, Wall};
@@ -66,16 +68,20 @@ pub struct Patch<F: Friction, const N: usize> {
     /// Gap rates (and sliding velocities) without impulses, and impulses.
     free: Vec<[f64; 3]>,
     impulses: Vec<[f64; 3]>,
+    /// Normal forces with the memory of the friction; zero without friction.
+    remembered: Vec<f64>,
     candidates: Vec<u32>,
     time: f64,
+    memory: f64,
     tolerance: f64,
     sweeps: u64,
 }
 
 impl<F: Friction, const N: usize> Patch<F, N> {
-    /// No points yet; `tolerance` is the speed below which a violation counts as solved.
+    /// No points yet; `memory` is the time over which friction follows the normal force, `tolerance` the speed below which a
+    /// violation counts as solved.
     #[must_use]
-    pub fn new(friction: F, offsets: [usize; N], tolerance: f64) -> Self {
+    pub fn new(friction: F, offsets: [usize; N], memory: f64, tolerance: f64) -> Self {
         Patch {
             friction,
             offsets,
@@ -89,8 +95,10 @@ impl<F: Friction, const N: usize> Patch<F, N> {
             diagonal: Vec::new(),
             free: Vec::new(),
             impulses: Vec::new(),
+            remembered: Vec::new(),
             candidates: Vec::new(),
             time: 0.0,
+            memory,
             tolerance,
             sweeps: 0,
         }
@@ -103,6 +111,7 @@ impl<F: Friction, const N: usize> Patch<F, N> {
         self.places.push(place);
         self.free.push([0.0; 3]);
         self.impulses.push([0.0; 3]);
+        self.remembered.push(0.0);
     }
 
     /// Surface points.
@@ -206,7 +215,7 @@ impl<F: Friction, const N: usize> Patch<F, N> {
     /// Sliding of point `c` stopped as far as the bound allows; returns the correction as a speed.
     #[inline(always)]
     fn rub(&mut self, c: usize) -> f64 {
-        let bound = self.friction.coefficient() * self.impulses[c][2];
+        let bound = self.friction.coefficient() * self.remembered[c] * self.time;
         let old = self.impulses[c];
         if bound == 0.0 && old[0] == 0.0 && old[1] == 0.0 {
             return 0.0;
@@ -225,6 +234,20 @@ impl<F: Friction, const N: usize> Patch<F, N> {
         self.impulses[c][1] = y * keep;
         let (dx, dy) = (x * keep - old[0], y * keep - old[1]);
         (dx * dx + dy * dy).sqrt() * stiff
+    }
+
+    /// Let the remembered normal forces follow the present ones; out of contact they are forgotten.
+    fn remember(&mut self, dt: f64) {
+        let share = dt / (dt + self.memory);
+        for &c in &self.candidates {
+            let force = self.impulses[c as usize][2] / dt;
+            let remembered = &mut self.remembered[c as usize];
+            *remembered = if force > 0.0 {
+                *remembered + share * (force - *remembered)
+            } else {
+                0.0
+            };
+        }
     }
 
     /// Free gap rates and sliding velocities of the candidates, warm-started impulses; whether any point would touch.
@@ -310,11 +333,13 @@ impl<F: Friction, const N: usize> Wall<Solid> for Patch<F, N> {
         if !self.prepare(dt, u, v) {
             for &c in &self.candidates {
                 self.impulses[c as usize] = [0.0; 3];
+                self.remembered[c as usize] = 0.0;
             }
             return touch;
         }
         touch.residual = self.relax(Self::press);
         if F::ON {
+            self.remember(dt);
             touch.residual = touch.residual.max(self.relax(Self::rub));
         }
         self.apply(u, old, v, recip_mass, &mut touch);

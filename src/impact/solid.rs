@@ -14,6 +14,9 @@ use crate::space::Solid;
 
 /// Degree of the splines in three dimensions.
 const DEGREE: usize = 2;
+/// Memory of friction for the normal force, in cells at the speed c0. Without it a sphere of nu = 0.35 that slides at
+/// mu = 0.3 sticks in waves and loses 4 % of the friction impulse; with it 0.15 % is missing.
+const MEMORY: f64 = 2.3;
 /// Nodes of a cell.
 pub const NODES: usize = 27;
 
@@ -160,7 +163,7 @@ pub fn build<M: Constitutive<Solid>, F: Friction>(
         points.push_cell(first, &cell);
     }
     let recip_mass = lattice.recip_mass(&mass, geometry);
-    let mut contact = Patch::new(friction, offsets, contact_tolerance);
+    let mut contact = Patch::new(friction, offsets, MEMORY * grid.fine, contact_tolerance);
     for x in surface(lattice.breaks.each_ref().map(Vec::as_slice)) {
         let (first, values) = lattice.interpolate(x);
         contact.push(first, values, x);
