@@ -59,8 +59,6 @@ fn page(case: &Case) -> RunPage<'_> {
         maps: Vec::new(),
         fit: None,
         comparison: Vec::new(),
-        angle: 0.0,
-        friction: 0.0,
         bed: None,
         references: Vec::new(),
         limits: Vec::new(),
