@@ -38,6 +38,32 @@ pub struct Grid {
     pub coarse: f64,
     /// Share of the stable time step that is used, at most 1 (smaller to show that dt does not matter).
     pub dt_share: f64,
+    /// What is done against large deformation.
+    pub remedies: Remedies,
+}
+
+/// Remedies that carry a run through large deformation; each is off at zero and then costs nothing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Remedies {
+    /// Share of the volumetric stiffness that acts on the volume ratio of each point instead of the cell's mean. Keeps a
+    /// point of a yielding cell, whose shape resists with no more than Y, from being turned inside out.
+    pub own_volume: f64,
+    /// Share of a cell that the body must fill for the cell to keep its own polynomials; what lies in emptier cells is
+    /// carried by those of a fuller neighbour, so that no node hangs on a sliver of the body.
+    pub least_fill: f64,
+}
+
+impl Remedies {
+    /// Nothing is done.
+    pub const NONE: Remedies = Remedies {
+        own_volume: 0.0,
+        least_fill: 0.0,
+    };
+    /// For impacts that flatten the body.
+    pub const LARGE: Remedies = Remedies {
+        own_volume: 0.1,
+        least_fill: 0.4,
+    };
 }
 
 /// Whether an effect is simulated, and why.
@@ -79,6 +105,8 @@ pub struct Plan {
     pub effects: Vec<Effect>,
     /// Whether the body yields in this run.
     pub plastic: bool,
+    /// Relative error asked for in F*, delta* and e.
+    pub tolerance: f64,
     /// Grid.
     pub grid: Grid,
     /// Time after loss of contact over which the residual vibration is averaged, R/c0.
@@ -135,10 +163,14 @@ pub fn plan(case: &Case, velocity: f64) -> Plan {
     let estimate = estimate(material, normal);
     let geometry = geometry(case);
     let (effects, plastic) = effects(case, normal);
-    let grid = match geometry {
+    let mut grid = match geometry {
         Geometry::Axisymmetric => grid(&estimate, case.tolerance),
         _ => solid_grid(&estimate, case),
     };
+    let severity = large_deformation(case, normal);
+    if geometry == Geometry::Axisymmetric && severity > LARGE_FROM {
+        grid.remedies = Remedies::LARGE;
+    }
     let ring_time = 1.5 * fundamental_period(material.poisson_ratio);
     let (points, steps) = predict(&grid, geometry, material, &estimate, ring_time);
     let throughput = match geometry {
@@ -153,6 +185,7 @@ pub fn plan(case: &Case, velocity: f64) -> Plan {
         estimate,
         effects,
         plastic,
+        tolerance: case.tolerance,
         grid,
         ring_time,
         longest_time: 6.0 * estimate.contact_time + 4.0 * ring_time,
@@ -179,6 +212,7 @@ fn grid(estimate: &Estimate, tolerance: f64) -> Grid {
         growth: 1.15,
         coarse: 0.1,
         dt_share: 1.0,
+        remedies: Remedies::NONE,
     }
 }
 
@@ -207,7 +241,18 @@ fn solid_grid(estimate: &Estimate, case: &Case) -> Grid {
         growth: 1.3,
         coarse: 0.15,
         dt_share: 1.0,
+        remedies: Remedies::NONE,
     }
+}
+
+/// $\rho V^2/Y$ from which the remedies against large deformation are on.
+const LARGE_FROM: f64 = 0.1;
+
+/// Dynamic pressure over strength, $\rho V^2/Y$; 0 for an elastic body.
+fn large_deformation(case: &Case, velocity: f64) -> f64 {
+    let m = &case.material;
+    m.flow
+        .map_or(0.0, |f| m.density * velocity * velocity / f.yield_strength)
 }
 
 /// Which effects the scene calls for.
@@ -230,6 +275,7 @@ fn effects(case: &Case, velocity: f64) -> (Vec<Effect>, bool) {
     };
     let hardening = case.material.flow.map_or(0.0, |f| f.hardening_modulus);
     let solid = geometry(case) != Geometry::Axisymmetric;
+    let severity = large_deformation(case, velocity);
     let list = vec![
         Effect {
             name: "three dimensions",
@@ -270,6 +316,14 @@ fn effects(case: &Case, velocity: f64) -> (Vec<Effect>, bool) {
             } else {
                 "no hardening modulus given".to_owned()
             },
+        },
+        Effect {
+            name: "large deformation",
+            on: severity > LARGE_FROM,
+            reason: format!(
+                "rho V^2/Y is {}, remedies start at {LARGE_FROM}",
+                significant(severity, 3)
+            ),
         },
         Effect {
             name: "gravity",

@@ -146,9 +146,13 @@ impl Record {
         value(a) + s * (value(b) - value(a))
     }
 
-    /// Largest force averaged over 2 % of the contact time.
+    /// Largest force averaged over 2 % of the contact time (of a particle that stays on the wall: of the time in which it
+    /// would bounce, six times that of half the displacement).
     fn max_force(&self) -> f64 {
-        let half = 0.5 * FORCE_WINDOW * self.contact_end;
+        let most = self.largest(|f| f.displacement);
+        let middle = self.frames.iter().find(|f| f.displacement >= 0.5 * most);
+        let bounce = 6.0 * middle.map_or(0.0, |f| f.time);
+        let half = 0.5 * FORCE_WINDOW * self.contact_end.min(bounce);
         let (from, to) = (half, self.contact_end - half);
         let mean = |t: f64| {
             let after = self.at(t + half, |f| f.impulse);

@@ -7,7 +7,7 @@ use crate::impact::record::{Frame, Record, SectionView, Sliding, Snapshot};
 use crate::impact::setup::Model;
 use crate::impact::timestep::StabilityLimit;
 use crate::material::stress::Constitutive;
-use crate::plan::{Geometry, Plan};
+use crate::plan::{Geometry, Plan, Remedies};
 use crate::space::Space;
 
 /// Outputs over the expected contact time.
@@ -18,6 +18,8 @@ const UNSTABLE: f64 = 0.05;
 const REFRESH: f64 = 50.0;
 /// Share of a cell that the wall may cover between refreshes: the stable step follows the strain of fast impacts.
 const COVERED: f64 = 0.5;
+/// The same where large deformation squeezes single cells much faster than the body.
+const COVERED_LARGE: f64 = 0.1;
 /// A run in progress.
 pub(super) struct Run<'a, S: Space, M: Constitutive<S>, W: Wall<S>, const N: usize> {
     model: Model<S, M, W, N>,
@@ -104,10 +106,19 @@ impl<'a, S: Space, M: Constitutive<S>, W: Wall<S>, const N: usize> Run<'a, S, M,
         self.into_record()
     }
 
-    /// Rebounded and rung out, or out of time.
+    /// Rebounded and rung out, flat, or out of time.
     fn is_over(&self) -> bool {
         let rung = self.time > self.contact_end + self.plan.ring_time;
-        (rung && self.mean(&self.v, S::NORMAL) > 0.0) || self.time > self.plan.longest_time
+        let rebounded = rung && self.mean(&self.v, S::NORMAL) > 0.0;
+        rebounded || self.is_flat() || self.time > self.plan.longest_time
+    }
+
+    /// Spread into a sheet that has no height left to fall and hardly falls: it will not come back.
+    fn is_flat(&self) -> bool {
+        let tolerance = 0.5 * self.plan.tolerance;
+        let left = 1.0 + self.mean(&self.u, S::NORMAL);
+        let sinking = -self.mean(&self.v, S::NORMAL) / self.speed;
+        left < tolerance && (0.0..tolerance).contains(&sinking)
     }
 
     /// Stable time step and contact candidates of the present configuration.
@@ -120,7 +131,12 @@ impl<'a, S: Space, M: Constitutive<S>, W: Wall<S>, const N: usize> Run<'a, S, M,
             iterations,
         );
         self.dt = stable * self.plan.grid.dt_share;
-        let covering = COVERED * self.plan.grid.fine / (self.speed * self.dt);
+        let covered = if self.plan.grid.remedies == Remedies::NONE {
+            COVERED
+        } else {
+            COVERED_LARGE
+        };
+        let covering = covered * self.plan.grid.fine / (self.speed * self.dt);
         let interval = covering.clamp(1.0, REFRESH).floor();
         self.next_refresh += interval as u64;
         let horizon = 2.0 * interval * self.dt;
@@ -294,7 +310,11 @@ impl<'a, S: Space, M: Constitutive<S>, W: Wall<S>, const N: usize> Run<'a, S, M,
     }
 
     fn into_record(self) -> Record {
-        let exit_speed = self.mean(&self.v, S::NORMAL);
+        let exit_speed = if self.is_flat() {
+            0.0
+        } else {
+            self.mean(&self.v, S::NORMAL)
+        };
         let rebound = self.snapshot();
         let sliding = self.sliding();
         let status = match self.failure {

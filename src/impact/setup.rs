@@ -1,9 +1,9 @@
 //! Set-up of a run: the grid laid over the body, its points, nodal masses and surface points.
 
-use crate::impact::basis::Direction;
-use crate::impact::body::{SurfacePoint, clip_cell, meridian};
+use crate::impact::body::{SectionPoint, SurfacePoint, clip_cell, meridian};
 use crate::impact::contact::{Contact, Wall};
-use crate::impact::kernel::{Point, Points};
+use crate::impact::kernel::Points;
+use crate::impact::section::Section;
 use crate::material::stress::Constitutive;
 use crate::plan::{Grid, graded};
 use crate::space::{Axisymmetric, Space};
@@ -32,57 +32,13 @@ pub struct Model<S: Space, M: Constitutive<S>, W: Wall<S>, const N: usize> {
     pub markers: [Vec<(usize, f64)>; 3],
 }
 
-/// The tensor grid of the axisymmetric section.
-struct Section<const P: usize> {
-    r: Direction<P>,
-    z: Direction<P>,
-}
+/// Model of the axisymmetric section.
+pub type AxisymmetricModel<M, const N: usize> = Model<Axisymmetric, M, Contact<Axisymmetric, N>, N>;
 
-impl<const P: usize> Section<P> {
-    fn new(grid: &Grid) -> Self {
-        let breaks = |length, to| graded(length, grid.fine, to, grid.growth, grid.coarse);
-        Section {
-            r: Direction::new(breaks(1.0, grid.fine_width)),
-            z: Direction::new(breaks(2.0, grid.fine_depth)),
-        }
-    }
-
-    fn node(&self, i: usize, j: usize) -> usize {
-        j * self.r.functions() + i
-    }
-
-    /// Coefficients that make the functions the coordinates r and z.
-    fn places(&self) -> Vec<[f64; 2]> {
-        let columns = self.r.functions();
-        let place = |n: usize| [self.r.greville(n % columns), self.z.greville(n / columns)];
-        (0..columns * self.z.functions()).map(place).collect()
-    }
-
-    /// First node of the cell that holds (r, z), and the values of its nodes there.
-    fn interpolate<const N: usize>(&self, r: f64, z: f64) -> (usize, [f64; N]) {
-        let (i, j) = (self.r.cell_of(r), self.z.cell_of(z));
-        let (br, bz) = (self.r.evaluate(i, r), self.z.evaluate(j, z));
-        let values = std::array::from_fn(|n| br.value[n % (P + 1)] * bz.value[n / (P + 1)]);
-        (self.node(i, j), values)
-    }
-
-    /// Material point at (r, z): weights $N_{,r}$, $N_{,z}$, $N/r$ of its nodes.
-    fn point<const N: usize>(&self, i: usize, j: usize, r: f64, z: f64, area: f64) -> Point<N> {
-        let (br, bz) = (self.r.evaluate(i, r), self.z.evaluate(j, z));
-        Point {
-            position: [r, z, 0.0],
-            values: std::array::from_fn(|n| br.value[n % (P + 1)] * bz.value[n / (P + 1)]),
-            weights: std::array::from_fn(|n| {
-                let (a, b) = (n % (P + 1), n / (P + 1));
-                [
-                    br.slope[a] * bz.value[b],
-                    br.value[a] * bz.slope[b],
-                    br.value[a] * bz.value[b] / r,
-                ]
-            }),
-            volume: 2.0 * PI * r * area,
-        }
-    }
+/// The grid of a plan over the unit sphere.
+fn section<const P: usize>(grid: &Grid) -> Section<P> {
+    let breaks = |length, to| graded(length, grid.fine, to, grid.growth, grid.coarse);
+    Section::new(breaks(1.0, grid.fine_width), breaks(2.0, grid.fine_depth))
 }
 
 /// Lay `grid` over a unit sphere of the given material. `N` must be $(P+1)^2$.
@@ -90,38 +46,66 @@ pub fn build<M: Constitutive<Axisymmetric>, const P: usize, const N: usize>(
     grid: &Grid,
     material: M,
     contact_tolerance: f64,
-) -> Model<Axisymmetric, M, Contact<Axisymmetric, N>, N> {
+) -> AxisymmetricModel<M, N> {
     const { assert!(N == (P + 1) * (P + 1)) };
-    let section = Section::<P>::new(grid);
-    let offsets: [usize; N] = std::array::from_fn(|n| section.node(n % (P + 1), n / (P + 1)));
-    let nodes = section.r.functions() * section.z.functions();
-    let mut mass = vec![0.0; nodes];
-    let mut points = Points::new(material, offsets);
-    for j in 0..section.z.cells() {
-        for i in 0..section.r.cells() {
-            let clipped = clip_cell(
-                section.r.cell(i),
-                section.z.cell(j),
-                grid.points_per_direction,
-            );
-            let cell: Vec<Point<N>> = clipped
-                .iter()
-                .map(|p| section.point(i, j, p.r, p.z, p.area))
-                .collect();
-            if cell.is_empty() {
-                continue;
-            }
-            let first = section.node(i, j);
-            for point in &cell {
-                for (n, value) in point.values.iter().enumerate() {
-                    mass[first + offsets[n]] += point.volume * value;
-                }
-            }
-            points.push_cell(first, &cell);
-        }
+    let mut section = section::<P>(grid);
+    let columns = section.r.cells();
+    let clipped: Vec<Vec<SectionPoint>> = (0..section.cells())
+        .map(|c| {
+            let (r, z) = (section.r.cell(c % columns), section.z.cell(c / columns));
+            clip_cell(r, z, grid.points_per_direction)
+        })
+        .collect();
+    let area = |points: &Vec<SectionPoint>| points.iter().map(|p| p.area).sum();
+    let areas: Vec<f64> = clipped.iter().map(area).collect();
+    section.carry(&areas, grid.remedies.least_fill);
+    let mut carried = vec![Vec::new(); section.cells()];
+    for (c, points) in clipped.iter().enumerate() {
+        let home = section.home(c);
+        let point = |p: &SectionPoint| section.point(home, p.r, p.z, 2.0 * PI * p.r * p.area);
+        carried[home].extend(points.iter().map(point));
     }
+    let mut points = Points::new(material, section.offsets(), grid.remedies.own_volume);
+    for (c, cell) in carried
+        .iter()
+        .enumerate()
+        .filter(|(_, cell)| !cell.is_empty())
+    {
+        points.push_cell(section.first_node(c), cell);
+    }
+    let spacing = |p: SurfacePoint| {
+        let size = |(a, b): (f64, f64)| b - a;
+        let across = size(section.r.cell(section.r.cell_of(p.r)));
+        let up = size(section.z.cell(section.z.cell_of(p.z)));
+        CONTACT_SPACING * (across / (1.0 - p.z).abs().max(1e-3)).min(up / p.r.max(1e-3))
+    };
+    let surface = meridian(PI, spacing);
+    assemble(
+        &section,
+        points,
+        &surface,
+        [0.0, 1.0, 2.0],
+        contact_tolerance,
+    )
+}
+
+/// Nodal masses, contact and markers of points that are laid out.
+pub fn assemble<M: Constitutive<Axisymmetric>, const P: usize, const N: usize>(
+    section: &Section<P>,
+    points: Points<Axisymmetric, M, N>,
+    surface: &[SurfacePoint],
+    markers: [f64; 3],
+    contact_tolerance: f64,
+) -> AxisymmetricModel<M, N> {
+    let mass = points.nodal_mass(section.nodes());
     let recip_mass = recip_mass(&mass, section.r.functions());
-    let contact = surface(&section, offsets, &recip_mass, contact_tolerance);
+    let mut contact = Contact::new(section.offsets(), contact_tolerance);
+    for p in surface {
+        let (first, values) = section.interpolate::<N>(p.r, p.z);
+        contact.push(first, values, p.z, p.r);
+    }
+    contact.couple(&recip_mass);
+    let offsets: [usize; N] = section.offsets();
     let marker = |z: f64| {
         let (first, values) = section.interpolate::<N>(0.0, z);
         (0..N).map(|n| (first + offsets[n], values[n])).collect()
@@ -130,8 +114,8 @@ pub fn build<M: Constitutive<Axisymmetric>, const P: usize, const N: usize>(
         points,
         contact,
         recip_mass,
-        markers: [marker(0.0), marker(1.0), marker(2.0)],
-        places: section.places(),
+        markers: markers.map(marker),
+        places: (0..section.nodes()).map(|n| section.greville(n)).collect(),
         copies: 1.0,
         mass,
     }
@@ -146,28 +130,6 @@ fn recip_mass(mass: &[f64], columns: usize) -> Vec<[f64; 2]> {
             [if n % columns == 0 { 0.0 } else { w }, w]
         })
         .collect()
-}
-
-/// Surface points: two a cell along the exact meridian, pole to pole.
-fn surface<const P: usize, const N: usize>(
-    section: &Section<P>,
-    offsets: [usize; N],
-    recip_mass: &[[f64; 2]],
-    tolerance: f64,
-) -> Contact<Axisymmetric, N> {
-    let spacing = |p: SurfacePoint| {
-        let size = |(a, b): (f64, f64)| b - a;
-        let across = size(section.r.cell(section.r.cell_of(p.r)));
-        let up = size(section.z.cell(section.z.cell_of(p.z)));
-        CONTACT_SPACING * (across / (1.0 - p.z).abs().max(1e-3)).min(up / p.r.max(1e-3))
-    };
-    let mut contact = Contact::new(offsets, tolerance);
-    for p in meridian(PI, spacing) {
-        let (first, values) = section.interpolate::<N>(p.r, p.z);
-        contact.push(first, values, p.z, p.r);
-    }
-    contact.couple(recip_mass);
-    contact
 }
 
 #[cfg(test)]
@@ -188,6 +150,7 @@ mod tests {
             growth: 1.2,
             coarse: 0.15,
             dt_share: 1.0,
+            remedies: crate::plan::Remedies::NONE,
         }
     }
 
@@ -263,11 +226,11 @@ mod tests {
     fn uniform_compression_stores_the_closed_form_energy() {
         // u_z = -0.1 z: uniaxial strain with J = 0.9 everywhere; Greville coefficients make it exactly
         let mut m = model();
-        let section = Section::<2>::new(&grid());
+        let section = section::<2>(&grid());
         let mut u = vec![[0.0; 2]; m.mass.len()];
         for j in 0..section.z.functions() {
             for i in 0..section.r.functions() {
-                u[section.node(i, j)][1] = -0.1 * section.z.greville(j);
+                u[j * section.r.functions() + i][1] = -0.1 * section.z.greville(j);
             }
         }
         let mut force = vec![[0.0; 2]; m.mass.len()];

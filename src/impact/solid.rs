@@ -143,7 +143,7 @@ pub fn build<M: Constitutive<Solid>, F: Friction>(
     let offsets = lattice.offsets();
     let places = lattice.places();
     let mut mass = vec![0.0; places.len()];
-    let mut points = Points::new(material, offsets);
+    let mut points = Points::new(material, offsets, grid.remedies.own_volume);
     let [nx, ny, nz] = [0, 1, 2].map(|k| lattice.axes[k].cells());
     for c in 0..nx * ny * nz {
         let index = [c % nx, c / nx % ny, c / nx / ny];
