@@ -19,6 +19,7 @@ fn grid(degree: usize) -> Grid {
         growth: 1.15,
         coarse: 0.1,
         dt_share: 1.0,
+        remedies: impactlaw::plan::Remedies::NONE,
     }
 }
 
@@ -28,7 +29,7 @@ fn sweep<M: Constitutive<Axisymmetric>, const P: usize, const N: usize>(
     name: &str,
     material: M,
 ) {
-    let mut model = build::<M, P, N>(&grid(P), material, 1e-9);
+    let mut model = build::<M, P, N>(&grid(P), impactlaw::scheme::Layout::Fitted, material, 1e-9);
     let nodes = model.mass.len();
     let u: Vec<[f64; 2]> = (0..nodes)
         .map(|n| [0.0, 1e-3 * (0.1 * n as f64).sin()])

@@ -2,7 +2,7 @@
 
 use crate::document::Document;
 use crate::material::{Flow, Material};
-use crate::unit::{self, Density, Length, Pressure, Quantity, Velocity};
+use crate::unit::{self, Angle, Density, Length, Pressure, Quantity, Velocity};
 use crate::{Error, Result};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
@@ -22,6 +22,10 @@ pub struct Case {
     pub material: Material,
     /// Impact speeds, m/s, ascending.
     pub velocities: Vec<f64>,
+    /// Angle of the impact velocity from the wall's normal, rad; 0 for a normal impact.
+    pub angle: f64,
+    /// Coulomb friction coefficient of the wall; 0 for a frictionless one.
+    pub friction: f64,
     /// Accuracy asked for, relative, on F*, delta* and e.
     pub tolerance: f64,
     /// Bed scene to run with the law, resolved against the case file's folder.
@@ -35,6 +39,7 @@ struct CaseFile {
     particle: ParticleTable,
     material: MaterialTable,
     impact: ImpactTable,
+    wall: Option<WallTable>,
     accuracy: AccuracyTable,
     bed: Option<BedTable>,
 }
@@ -60,6 +65,13 @@ pub(crate) struct MaterialTable {
 #[serde(deny_unknown_fields)]
 struct ImpactTable {
     velocities: Vec<Quantity<Velocity>>,
+    angle: Option<Quantity<Angle>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WallTable {
+    friction: f64,
 }
 
 #[derive(Debug, Deserialize)]
@@ -125,6 +137,8 @@ impl Case {
             radius: document.positive("particle.radius", file.particle.radius)?,
             material: file.material.check(document)?,
             velocities: file.impact.check(document)?,
+            angle: file.impact.angle(document)?,
+            friction: file.wall.map_or(Ok(0.0), |wall| wall.check(document))?,
             tolerance: document.check(
                 "accuracy.tolerance",
                 file.accuracy.tolerance,
@@ -234,6 +248,30 @@ impl ImpactTable {
     }
 }
 
+impl ImpactTable {
+    fn angle(&self, document: &Document) -> Result<f64> {
+        self.angle.map_or(Ok(0.0), |angle| {
+            document.check(
+                "impact.angle",
+                angle.si(),
+                |angle| (0.0..=85f64.to_radians()).contains(&angle),
+                "must lie in [0 deg, 85 deg], measured from the wall's normal",
+            )
+        })
+    }
+}
+
+impl WallTable {
+    fn check(self, document: &Document) -> Result<f64> {
+        document.check(
+            "wall.friction",
+            self.friction,
+            |friction| (0.0..=2.0).contains(&friction),
+            "must lie in [0, 2]",
+        )
+    }
+}
+
 impl BedTable {
     fn check(&self, document: &Document) -> Result<PathBuf> {
         let path = document.resolve(&self.scene);
@@ -252,139 +290,4 @@ impl BedTable {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    const GOOD: &str = r#"
-[particle]
-radius = "250 um"
-[material]
-density = "8000 kg/m3"
-young_modulus = "100 GPa"
-poisson_ratio = 0.35
-yield_strength = "1.25 GPa"
-hardening_modulus = "2 GPa"
-[impact]
-velocities = ["50 m/s", "10 m/s"]
-[accuracy]
-tolerance = 0.02
-"#;
-
-    fn error(from: &str, to: &str) -> String {
-        assert!(GOOD.contains(from), "{from}");
-        Case::parse(&GOOD.replace(from, to), Path::new("c.toml"))
-            .unwrap_err()
-            .to_string()
-    }
-
-    #[test]
-    fn a_good_case_is_in_si_and_ascending() {
-        let case = Case::parse(GOOD, Path::new("cases/c.toml")).unwrap();
-        assert_eq!(case.name, "c");
-        assert_eq!(case.radius, 250e-6);
-        assert_eq!(case.material.young_modulus, 100e9);
-        assert_eq!(case.material.flow.unwrap().hardening_modulus, 2e9);
-        assert_eq!(case.velocities, [10.0, 50.0]);
-        assert_eq!(case.hash.len(), 64);
-    }
-
-    #[test]
-    fn without_yield_strength_the_body_is_elastic() {
-        let elastic = GOOD.replace("yield_strength = \"1.25 GPa\"\n", "");
-        let text = elastic.replace("hardening_modulus = \"2 GPa\"\n", "");
-        assert_eq!(
-            Case::parse(&text, Path::new("c")).unwrap().material.flow,
-            None
-        );
-        let error = Case::parse(&elastic, Path::new("c")).unwrap_err();
-        assert!(
-            error.to_string().contains("needs a `yield_strength`"),
-            "{error}"
-        );
-    }
-
-    #[test]
-    fn values_out_of_range_name_key_found_and_allowed() {
-        for (from, to, key, found) in [
-            (
-                "\"250 um\"",
-                "\"-250 um\"",
-                "particle.radius",
-                "\"-250 um\"",
-            ),
-            (
-                "\"8000 kg/m3\"",
-                "\"0 kg/m3\"",
-                "material.density",
-                "\"0 kg/m3\"",
-            ),
-            (
-                "\"100 GPa\"",
-                "\"-1 GPa\"",
-                "material.young_modulus",
-                "\"-1 GPa\"",
-            ),
-            ("0.35", "0.5", "material.poisson_ratio", "0.5"),
-            ("0.35", "-0.1", "material.poisson_ratio", "-0.1"),
-            ("0.35", "nan", "material.poisson_ratio", "nan"),
-            (
-                "\"1.25 GPa\"",
-                "\"101 GPa\"",
-                "material.yield_strength",
-                "\"101 GPa\"",
-            ),
-            (
-                "\"2 GPa\"",
-                "\"-2 GPa\"",
-                "material.hardening_modulus",
-                "\"-2 GPa\"",
-            ),
-            (
-                "\"50 m/s\"",
-                "\"0 m/s\"",
-                "impact.velocities[0]",
-                "\"0 m/s\"",
-            ),
-            (
-                "\"50 m/s\"",
-                "\"1000 cm/s\"",
-                "impact.velocities[1]",
-                "\"10 m/s\"",
-            ),
-            ("[\"50 m/s\", \"10 m/s\"]", "[]", "impact.velocities", "[]"),
-            ("0.02", "0", "accuracy.tolerance", "0"),
-            ("0.02", "0.3", "accuracy.tolerance", "0.3"),
-        ] {
-            let text = error(from, to);
-            let start = format!("c.toml: `{key}`: found {found}; ");
-            assert!(text.starts_with(&start), "{text}");
-        }
-    }
-
-    #[test]
-    fn the_bed_scene_must_exist_beside_the_case() {
-        let text = format!("{GOOD}[bed]\nscene = \"no-such-scene.toml\"\n");
-        let error = Case::parse(&text, Path::new("cases/c.toml")).unwrap_err();
-        assert!(
-            error
-                .to_string()
-                .contains("cases/no-such-scene.toml does not exist"),
-            "{error}"
-        );
-    }
-
-    #[test]
-    fn the_command_line_replaces_the_speeds() {
-        let case = || Case::parse(GOOD, Path::new("c.toml")).unwrap();
-        let with = |texts: &[&str]| {
-            let texts: Vec<String> = texts.iter().map(|text| (*text).to_owned()).collect();
-            case().with_velocities(&texts)
-        };
-        assert_eq!(with(&[]).unwrap().velocities, [10.0, 50.0]);
-        assert_eq!(with(&["3 m/s", "1 m/s"]).unwrap().velocities, [1.0, 3.0]);
-        for bad in [&["3"][..], &["0 m/s"], &["-1 m/s"], &["3 m/s", "3 m/s"]] {
-            let text = with(bad).unwrap_err().to_string();
-            assert!(text.starts_with("--velocity: found"), "{text}");
-        }
-    }
-}
+mod tests;

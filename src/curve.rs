@@ -90,8 +90,31 @@ pub struct Summary {
     /// Wall time, s.
     #[serde(deserialize_with = "number_or_null")]
     pub wall_s: f64,
+    /// What happened along the wall; absent from normal impacts on a frictionless wall.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tangential: Option<Tangential>,
     /// How the run ended.
     pub status: Status,
+}
+
+/// Figures of an impact along the wall (table `tangential` of `summary.json`).
+///
+/// Positive is the direction in which the particle came; a positive spin rolls that way.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Tangential {
+    /// Velocity along the wall before, m/s.
+    pub incident_velocity_m_s: f64,
+    /// Velocity of the centre of mass along the wall after, m/s.
+    pub velocity_m_s: f64,
+    /// Tangential restitution $e_t = -(v_t - R\omega)/V_t$ of the velocity of the contact point (Walton's beta); absent
+    /// from a normal impact.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub restitution: Option<f64>,
+    /// Angular velocity after: angular momentum over the moment of inertia 2/5 m R^2, rad/s.
+    pub angular_velocity_rad_s: f64,
+    /// Impulse along the wall over the normal impulse; the friction coefficient in full sliding.
+    pub impulse_ratio: f64,
 }
 
 /// A number; `null` is NaN.

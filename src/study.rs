@@ -104,6 +104,8 @@ impl Study {
             radius,
             material,
             velocities: vec![velocity],
+            angle: 0.0,
+            friction: 0.0,
             tolerance,
             bed: None,
         };

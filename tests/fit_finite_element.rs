@@ -26,6 +26,8 @@ fn case(velocities: &[f64]) -> Case {
         },
         velocities: velocities.to_vec(),
         tolerance: 0.02,
+        angle: 0.0,
+        friction: 0.0,
         bed: None,
     }
 }
@@ -74,6 +76,7 @@ fn impact(velocity: f64, f: f64, delta: f64, e: f64, residual: f64, time: f64) -
             points: 0,
             steps: 0,
             wall_s: 0.0,
+            tangential: None,
             status: Status::Ok,
         },
         curve: Curve {

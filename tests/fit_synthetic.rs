@@ -38,6 +38,8 @@ fn case(material: Material) -> Case {
         material,
         velocities: SPEEDS.to_vec(),
         tolerance: 0.02,
+        angle: 0.0,
+        friction: 0.0,
         bed: None,
     }
 }
@@ -132,6 +134,7 @@ fn impact<L: NormalLaw>(law: &L, velocity: f64, mass: f64) -> Impact {
             points: 0,
             steps: 0,
             wall_s: 0.0,
+            tangential: None,
             status: Status::Ok,
         },
         curve: Curve { samples },

@@ -50,6 +50,7 @@ fn summary(velocity: f64, figures: [f64; 5]) -> Summary {
         points: 0,
         steps: 0,
         wall_s: 0.0,
+        tangential: None,
         status: Status::Ok,
     }
 }

@@ -16,6 +16,7 @@ use std::path::{Path, PathBuf};
 /// Those of reading the case and the impacts, of the fit, and of writing the law.
 pub fn run(args: &FitArgs, _context: &Context) -> Result<Verdict> {
     let case = Case::read(&args.case)?;
+    check_normal(&case)?;
     let folder = args
         .impacts
         .clone()
@@ -39,6 +40,22 @@ pub fn run(args: &FitArgs, _context: &Context) -> Result<Verdict> {
         100.0 * THRESHOLD
     );
     Ok(Verdict::Missed)
+}
+
+/// That the impacts of a case can be held against a normal law.
+///
+/// # Errors
+/// [`Error::Argument`] for an oblique impact or a wall with friction.
+pub fn check_normal(case: &Case) -> Result<()> {
+    if case.angle == 0.0 && case.friction == 0.0 {
+        return Ok(());
+    }
+    Err(Error::Argument {
+        argument: case.path.display().to_string(),
+        found: "`impact.angle` or `wall.friction`".to_owned(),
+        allowed: "a normal law is fitted to normal impacts on a frictionless wall; use `impact`"
+            .to_owned(),
+    })
 }
 
 /// Impacts in the folders `impact_V*` of `folder`, slowest first; a warning if they were made from another case file.

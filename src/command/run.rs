@@ -35,6 +35,7 @@ pub fn run(args: &RunArgs, context: &Context) -> Result<Verdict> {
     let started = Instant::now();
     let document = Document::read(&args.case)?;
     let case = Case::from_document(&document)?;
+    super::fit::check_normal(&case)?;
     let scene = case
         .bed
         .as_deref()

@@ -1,17 +1,20 @@
 //! Choice: flow stress, degree and scheme of a plan become concrete types once, before the loop.
 
+use super::CONTACT_TOLERANCE;
 use super::contact::Wall;
+use super::patch::{Coulomb, Frictionless};
 use super::record::Record;
 use super::remap::{Apic, Blend, Carriers};
+use super::run::Run;
 use super::setup::{self, Model};
+use super::solid;
 use super::updated::Updated;
-use super::{CONTACT_TOLERANCE, Run};
 use crate::material::Flow;
 use crate::material::flow::{FlowStress, LinearHardening, PerfectlyPlastic};
 use crate::material::stress::{Constitutive, J2, Moduli};
-use crate::plan::Plan;
+use crate::plan::{Geometry, Plan};
 use crate::scheme::{Reference, Transfer};
-use crate::space::Axisymmetric;
+use crate::space::{Axisymmetric, Solid};
 
 /// The flow stress that the material calls for.
 pub(super) fn run_plastic(
@@ -22,7 +25,7 @@ pub(super) fn run_plastic(
     speed: f64,
 ) -> Record {
     fn with<F: FlowStress>(moduli: Moduli, flow: F, plan: &Plan, speed: f64) -> Record {
-        run_degree(J2 { moduli, flow }, plan, speed)
+        run_geometry(J2 { moduli, flow }, plan, speed)
     }
     let strength = flow.yield_strength / unit;
     if flow.hardening_modulus > 0.0 {
@@ -33,12 +36,28 @@ pub(super) fn run_plastic(
     }
 }
 
-/// The spline degree that the plan calls for.
-pub(super) fn run_degree<M: Constitutive<Axisymmetric>>(
+/// The space, and in three dimensions the friction, that the plan calls for.
+pub(super) fn run_geometry<M: Constitutive<Axisymmetric> + Constitutive<Solid>>(
     material: M,
     plan: &Plan,
     speed: f64,
 ) -> Record {
+    let tolerance = CONTACT_TOLERANCE * speed * plan.angle.cos();
+    let (grid, geometry) = (&plan.grid, plan.geometry);
+    if geometry == Geometry::Axisymmetric {
+        run_degree(material, plan, speed)
+    } else if plan.friction > 0.0 {
+        let coefficient = plan.friction;
+        let model = solid::build(grid, geometry, material, Coulomb { coefficient }, tolerance);
+        Run::new(model, (), plan, speed).finish()
+    } else {
+        let model = solid::build(grid, geometry, material, Frictionless, tolerance);
+        Run::new(model, (), plan, speed).finish()
+    }
+}
+
+/// The spline degree that the plan calls for.
+fn run_degree<M: Constitutive<Axisymmetric>>(material: M, plan: &Plan, speed: f64) -> Record {
     let (grid, layout) = (&plan.grid, plan.scheme.layout);
     if plan.scheme.reference == Reference::Present {
         return match grid.degree {
@@ -89,7 +108,7 @@ where
             Run::new(model, Blend { carriers, flip }, plan, speed).finish()
         }
         Transfer::Apic => {
-            let apic = Apic::new(carriers(), points, &setup::places(&plan.grid));
+            let apic = Apic::new(carriers(), points, &model.places);
             Run::new(model, apic, plan, speed).finish()
         }
     }

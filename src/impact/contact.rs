@@ -53,6 +53,8 @@ struct ContactPoint<const N: usize> {
 pub struct Touch {
     /// Total normal impulse.
     pub impulse: f64,
+    /// Total impulse in the direction of sliding.
+    pub tangential: f64,
     /// Work of the impulses on the body (negative: taken out by touching points brought to rest).
     pub work: f64,
     /// Outermost deformed distance from the axis of a point that carries force; 0 without contact.

@@ -3,7 +3,9 @@
 //! Points of one cell share their nodes, so the nodes' displacements are loaded once a cell and broadcast over blocks of
 //! four points. Pressure comes from the mean dilatation of the cell, $\theta = \sum V_0 J / \sum V_0$, with energy
 //! $V U(\theta)$ (Nagtegaal, Parks and Rice 1974; Simo, Taylor and Pister 1985): one volumetric constraint a cell, so
-//! isochoric plastic flow does not lock, and forces still derive from an energy.
+//! isochoric plastic flow does not lock, and forces still derive from an energy. Where deformation is large, a share
+//! $\alpha$ of the volumetric energy is taken at the points' own J instead,
+//! $(1 - \alpha) V U(\theta) + \alpha \sum V_0 U(J)$: alone, the mean leaves a yielding cell free to turn a point inside out.
 
 use crate::lanes::{Lanes, WIDTH};
 use crate::material::stress::{Constitutive, Response};
@@ -46,6 +48,8 @@ pub struct Points<S: Space, M: Constitutive<S>, const N: usize> {
     /// Unpacked points, for snapshots only.
     cold: Vec<(u32, Point<N>)>,
     material: M,
+    /// Share of the volumetric stiffness on the points' own volume ratio.
+    own_volume: f64,
 }
 
 /// A material point as a person would look at it.
@@ -86,8 +90,9 @@ pub enum Purpose {
 }
 
 impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
-    /// No points yet, on a grid whose cells reach their nodes by `offsets` from the first.
-    pub fn new(material: M, offsets: [usize; N]) -> Self {
+    /// No points yet, on a grid whose cells reach their nodes by `offsets` from the first. `own_volume`: share of the
+    /// volumetric stiffness that acts on each point's own volume ratio.
+    pub fn new(material: M, offsets: [usize; N], own_volume: f64) -> Self {
         Points {
             cells: Vec::new(),
             offsets,
@@ -97,6 +102,7 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
             scratch: Vec::new(),
             cold: Vec::new(),
             material,
+            own_volume,
         }
     }
 
@@ -136,6 +142,18 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
                 .resize(blocks, (S::identity(), Lanes::splat(1.0)));
         }
         self.cold.extend(points.iter().map(|p| (node as u32, *p)));
+    }
+
+    /// Lumped masses of `nodes` nodes (density one).
+    #[must_use]
+    pub fn nodal_mass(&self, nodes: usize) -> Vec<f64> {
+        let mut mass = vec![0.0; nodes];
+        for (node, point) in &self.cold {
+            for (offset, value) in self.offsets.iter().zip(&point.values) {
+                mass[*node as usize + offset] += point.volume * value;
+            }
+        }
+        mass
     }
 
     /// Material points (padding not counted).
@@ -244,7 +262,9 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
         for index in 0..self.cells.len() {
             let cell = self.cells[index];
             let mean = self.gather(&cell, u, &mut least);
-            let pressure = self.material.moduli().volumetric_stress(mean);
+            let moduli = self.material.moduli();
+            let pressure = moduli.volumetric_stress(mean) * (1.0 - self.own_volume);
+            let own_bulk = 0.5 * moduli.bulk * self.own_volume;
             let mut local = [[Lanes::default(); 3]; N];
             for block in cell.first as usize..cell.last as usize {
                 let (f, j) = self.scratch[block - cell.first as usize];
@@ -253,18 +273,20 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
                 let answer = self.respond(purpose, block, &f, j, recip_j);
                 plastic += answer.dissipation * volume;
                 if purpose == Purpose::Audit {
-                    let shear = self.material.moduli().shear;
-                    let energy = (answer.mean - Lanes::splat(1.0)) * (1.5 * shear);
+                    let energy = (answer.mean - Lanes::splat(1.0)) * (1.5 * moduli.shear)
+                        + j.map(|j| moduli.volumetric_energy(j)) * self.own_volume;
                     total.elastic += (energy * volume).sum();
                 }
-                let tau = answer.deviator.shifted(j * pressure);
+                let own = (j * j - Lanes::splat(1.0)) * own_bulk;
+                let tau = answer.deviator.shifted(j * pressure + own);
                 let p = S::first_piola(&tau, &f, recip_j, volume);
                 for (force, w) in local.iter_mut().zip(&self.weights[block]) {
                     S::add_force(force, &p, w);
                 }
             }
             if purpose == Purpose::Audit {
-                total.elastic += cell.volume * self.material.moduli().volumetric_energy(mean);
+                let share = 1.0 - self.own_volume;
+                total.elastic += share * cell.volume * moduli.volumetric_energy(mean);
             }
             for (a, lanes) in local.iter().enumerate() {
                 let node = &mut force[cell.node as usize + self.offsets[a]];

@@ -3,41 +3,31 @@
 //! Runs in units R = 1, rho = 1, E = 1. Displacements and velocities live on the nodes of a grid that never moves, so
 //! there is no velocity transfer and no transfer loss; points carry only their plastic state.
 
+pub mod ball;
 pub mod banded;
 pub mod basis;
 pub mod body;
 mod choice;
 pub mod contact;
 pub mod deformation;
+pub mod homes;
 pub mod kernel;
 pub mod lattice;
+pub mod patch;
 pub mod record;
 pub mod remap;
+mod run;
+pub mod section;
 pub mod setup;
+pub mod solid;
 pub mod timestep;
 pub mod updated;
 
-use crate::curve::{Impact, ParticleMap, Status};
+use crate::curve::{Impact, ParticleMap};
 use crate::material::Material;
-use crate::material::stress::{Constitutive, Elastic, Moduli};
+use crate::material::stress::{Elastic, Moduli};
 use crate::plan::Plan;
-use crate::scheme::TimeStep;
-use crate::space::Space;
-use contact::Wall;
-use kernel::Purpose;
-use record::{Frame, Record, Snapshot};
-use remap::{Remap, StepEnd};
-use setup::Model;
-use timestep::StabilityLimit;
 
-/// Outputs over the expected contact time.
-const OUTPUTS: f64 = 400.0;
-/// Energy imbalance (of the incident kinetic energy) beyond which a run is stopped as unstable.
-const UNSTABLE: f64 = 0.05;
-/// Most steps between refreshes of the stable time step and the contact candidates.
-const REFRESH: f64 = 50.0;
-/// Share of a cell that the wall may cover between refreshes: the stable step follows the strain of fast impacts.
-const COVERED: f64 = 0.5;
 /// Contact violation that counts as solved, in impact speeds.
 const CONTACT_TOLERANCE: f64 = 1e-7;
 
@@ -58,14 +48,14 @@ pub struct Simulated {
 
 /// Simulate one impact as planned.
 ///
-/// Always returns what the run has; [`Status`] says whether it finished.
+/// Always returns what the run has; [`crate::curve::Status`] says whether it finished.
 #[must_use]
 pub fn simulate(material: &Material, radius: f64, plan: &Plan) -> Simulated {
     let moduli = Moduli::new(1.0, material.poisson_ratio);
     let started = std::time::Instant::now();
     let speed = plan.velocity / (material.young_modulus / material.density).sqrt();
     let record = match material.flow.filter(|_| plan.plastic) {
-        None => choice::run_degree(Elastic { moduli }, plan, speed),
+        None => choice::run_geometry(Elastic { moduli }, plan, speed),
         Some(flow) => choice::run_plastic(moduli, &flow, material.young_modulus, plan, speed),
     };
     let seconds = started.elapsed().as_secs_f64();
@@ -75,279 +65,5 @@ pub fn simulate(material: &Material, radius: f64, plan: &Plan) -> Simulated {
         rebound: record.rebound.map(material, radius),
         memory_bytes: record.memory_bytes,
         transfer_loss: record.transfer_loss,
-    }
-}
-
-/// A run in progress.
-struct Run<'a, S: Space, M: Constitutive<S>, W: Wall<S>, T: Remap<S::Vector>, const N: usize> {
-    model: Model<S, M, W, N>,
-    transfer: T,
-    transferred: f64,
-    plan: &'a Plan,
-    speed: f64,
-    u: Vec<S::Vector>,
-    v: Vec<S::Vector>,
-    old: Vec<S::Vector>,
-    force: Vec<S::Vector>,
-    limit: StabilityLimit<S>,
-    dt: f64,
-    time: f64,
-    step: u64,
-    next_refresh: u64,
-    impulse: f64,
-    contact_work: f64,
-    plastic: f64,
-    contact_radius: f64,
-    contact_end: f64,
-    mass: f64,
-    frames: Vec<Frame>,
-    closure: f64,
-    compressed: Option<Snapshot>,
-    failure: Option<String>,
-}
-
-impl<'a, S, M, W, T, const N: usize> Run<'a, S, M, W, T, N>
-where
-    S: Space,
-    M: Constitutive<S>,
-    W: Wall<S>,
-    T: Remap<S::Vector>,
-{
-    fn new(model: Model<S, M, W, N>, transfer: T, plan: &'a Plan, speed: f64) -> Self {
-        let nodes = model.mass.len();
-        let mut incident = S::Vector::default();
-        incident.as_mut()[S::NORMAL] = -speed;
-        let mass = model.mass.iter().sum::<f64>();
-        let first = Frame {
-            kinetic: 0.5 * mass * speed * speed,
-            height: 2.0,
-            ..Frame::default()
-        };
-        Run {
-            limit: StabilityLimit::new(nodes),
-            u: vec![S::Vector::default(); nodes],
-            v: vec![incident; nodes],
-            old: vec![S::Vector::default(); nodes],
-            force: vec![S::Vector::default(); nodes],
-            model,
-            transfer,
-            transferred: 0.0,
-            plan,
-            speed,
-            dt: 0.0,
-            time: 0.0,
-            step: 0,
-            next_refresh: 0,
-            impulse: 0.0,
-            contact_work: 0.0,
-            plastic: 0.0,
-            contact_radius: 0.0,
-            contact_end: 0.0,
-            mass,
-            frames: vec![first],
-            closure: 0.0,
-            compressed: None,
-            failure: None,
-        }
-    }
-
-    /// Step until the particle has rung out after its rebound, or the run must stop.
-    fn finish(mut self) -> Record {
-        let interval = self.plan.estimate.contact_time / OUTPUTS;
-        let mut next_output = interval;
-        while self.failure.is_none() && !self.is_over() {
-            if self.step == self.next_refresh {
-                self.refresh();
-            }
-            let output = self.time >= next_output;
-            if output {
-                next_output += interval;
-            }
-            self.advance(output);
-        }
-        self.into_record()
-    }
-
-    /// Rebounded and rung out, or out of time.
-    fn is_over(&self) -> bool {
-        let rung = self.time > self.contact_end + self.plan.ring_time;
-        (rung && self.mean(&self.v, S::NORMAL) > 0.0) || self.time > self.plan.longest_time
-    }
-
-    /// Stable time step and contact candidates of the present configuration.
-    fn refresh(&mut self) {
-        self.dt = match self.plan.scheme.time_step {
-            TimeStep::Stable => self.stable_step() * self.plan.grid.dt_share,
-            TimeStep::Fixed(dt) => dt,
-        };
-        let covering = COVERED * self.plan.grid.fine / (self.speed * self.dt);
-        let interval = covering.clamp(1.0, REFRESH).floor();
-        self.next_refresh += interval as u64;
-        let horizon = 2.0 * interval * self.dt;
-        self.model
-            .contact
-            .refresh(self.transfer.travel(&self.u), 2.0 * self.speed, horizon);
-    }
-
-    /// Stability limit of the present configuration.
-    fn stable_step(&mut self) -> f64 {
-        let iterations = if self.step == 0 { 60 } else { 3 };
-        self.limit.estimate(
-            &mut self.model.points,
-            &self.u,
-            &self.model.recip_mass,
-            iterations,
-        )
-    }
-
-    /// One step of the symplectic scheme: forces at $u_n$, velocities to n + 1/2, contact, displacements to n + 1.
-    fn advance(&mut self, output: bool) {
-        let purpose = if output {
-            Purpose::Audit
-        } else {
-            Purpose::Step
-        };
-        let sweep = self.model.points.sweep(purpose, &self.u, &mut self.force);
-        self.plastic += sweep.plastic;
-        if !(sweep.least_j > 0.0) {
-            self.failure = Some(format!(
-                "volume ratio J = {:e} at a material point",
-                sweep.least_j
-            ));
-        }
-        let dt = self.dt;
-        for n in 0..self.u.len() {
-            self.old[n] = self.v[n];
-            let (force, weight) = (self.force[n], self.model.recip_mass[n]);
-            let components = force.as_ref().iter().zip(weight.as_ref());
-            for (v, (f, w)) in self.v[n].as_mut().iter_mut().zip(components) {
-                *v += dt * f * w;
-            }
-        }
-        let travel = self.transfer.travel(&self.u);
-        let recip_mass = &self.model.recip_mass;
-        let contact = &mut self.model.contact;
-        let touch = contact.solve(dt, travel, &self.old, &mut self.v, recip_mass);
-        self.impulse += touch.impulse;
-        self.contact_work += touch.work;
-        self.contact_radius = self.contact_radius.max(touch.radius);
-        if touch.impulse > 0.0 {
-            self.contact_end = self.time + dt;
-        }
-        if output {
-            self.record(sweep.elastic, touch.impulse);
-        }
-        let end = StepEnd {
-            dt,
-            old: &self.old,
-            force: &self.force,
-            mass: &self.model.mass,
-            recip_mass: &self.model.recip_mass,
-        };
-        self.transferred += self.transfer.remap(end, &mut self.v);
-        for (u, v) in self.u.iter_mut().zip(&self.v) {
-            for (u, v) in u.as_mut().iter_mut().zip(v.as_ref()) {
-                *u += dt * v;
-            }
-        }
-        self.time += dt;
-        self.step += 1;
-    }
-
-    /// Mass average of component `axis` of a nodal field.
-    fn mean(&self, field: &[S::Vector], axis: usize) -> f64 {
-        let sum: f64 = field
-            .iter()
-            .zip(&self.model.mass)
-            .map(|(x, m)| m * x.as_ref()[axis])
-            .sum();
-        sum / self.mass
-    }
-
-    /// Keep a frame at time n (`impulse` of the step that is under way belongs half to each side).
-    fn record(&mut self, elastic: f64, impulse: f64) {
-        let kinetic: f64 = (self.old.iter().zip(&self.v).zip(&self.model.mass))
-            .map(|((a, b), m)| {
-                let mut product = 0.0;
-                for (a, b) in a.as_ref().iter().zip(b.as_ref()) {
-                    product += a * b;
-                }
-                0.5 * m * product
-            })
-            .sum();
-        let incident = self.frames[0].kinetic;
-        let given = incident + self.contact_work + self.transferred;
-        let balance = kinetic + elastic + self.plastic - given;
-        let closure = (balance / incident).abs();
-        if !(closure <= UNSTABLE) {
-            self.failure = Some(format!(
-                "energy imbalance {closure:e} of the incident energy"
-            ));
-        }
-        self.closure = self.closure.max(closure);
-        let along = |marker: &[(usize, f64)]| -> f64 {
-            marker
-                .iter()
-                .map(|(n, w)| w * self.u[*n].as_ref()[S::NORMAL])
-                .sum()
-        };
-        let [south, centre, north] = &self.model.markers;
-        let frame = Frame {
-            time: self.time,
-            displacement: -self.mean(&self.u, S::NORMAL),
-            centre_displacement: -along(centre),
-            impulse: self.impulse - 0.5 * impulse,
-            contact_radius: self.contact_radius,
-            kinetic,
-            elastic,
-            plastic: self.plastic,
-            height: 2.0 + along(north) - along(south),
-        };
-        self.contact_radius = 0.0;
-        self.frames.push(frame);
-        if self.compressed.is_none() && self.mean(&self.v, S::NORMAL) >= 0.0 {
-            self.compressed = Some(self.snapshot());
-        }
-    }
-
-    /// The particle as it is now.
-    fn snapshot(&self) -> Snapshot {
-        Snapshot {
-            points: self.model.points.view(&self.u),
-            outline: self.model.contact.outline(&self.u),
-        }
-    }
-
-    /// Memory of points and nodes.
-    fn bytes(&self) -> usize {
-        let fields = [&self.u, &self.v, &self.old, &self.force];
-        let nodes: usize = fields.iter().map(|f| std::mem::size_of_val(&f[..])).sum();
-        self.model.points.bytes() + nodes + self.transfer.bytes()
-    }
-
-    fn into_record(self) -> Record {
-        let exit_speed = self.mean(&self.v, S::NORMAL);
-        let rebound = self.snapshot();
-        let memory_bytes = self.bytes();
-        let status = match self.failure {
-            Some(reason) => Status::Failed(format!("step {}: {reason}", self.step)),
-            None if self.time > self.plan.longest_time => Status::NoRebound,
-            None => Status::Ok,
-        };
-        Record {
-            contact_end: self.contact_end,
-            exit_speed,
-            speed: self.speed,
-            closure: self.closure,
-            plastic_strain: self.model.points.plastic_strain_volume() / self.mass,
-            points: self.model.points.count(),
-            steps: self.step,
-            memory_bytes,
-            transfer_loss: -self.transferred / self.frames[0].kinetic,
-            frames: self.frames,
-            compressed: self.compressed.unwrap_or_default(),
-            rebound,
-            status,
-        }
     }
 }

@@ -1,7 +1,8 @@
 //! Record of a run: what is kept at every output, and how it becomes a curve and its figures in SI units.
 
-use crate::curve::{Curve, Impact, MapPoint, Part, ParticleMap, Sample, Status, Summary};
-use crate::impact::kernel::PointView;
+use crate::curve::{
+    Curve, Impact, MapPoint, Part, ParticleMap, Sample, Status, Summary, Tangential,
+};
 use crate::material::Material;
 
 /// One output in run units (R, R/c0, E R^2, E R^3).
@@ -27,11 +28,49 @@ pub struct Frame {
     pub height: f64,
 }
 
+/// A material point in the plane of a map, in run units.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct SectionView {
+    /// Distance from the axis (along x in three dimensions), height above the wall, edge length.
+    pub place: [f64; 3],
+    /// Accumulated equivalent plastic strain.
+    pub plastic_strain: f64,
+    /// Von Mises (Cauchy) stress.
+    pub von_mises: f64,
+}
+
+/// What an oblique impact, or one with friction, does along the wall; run units.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Sliding {
+    /// Velocity along the wall before.
+    pub incident: f64,
+    /// Velocity of the centre of mass along the wall after.
+    pub exit: f64,
+    /// Angular velocity after; positive rolls in the direction of `incident`.
+    pub spin: f64,
+    /// Impulse along the wall over the normal impulse.
+    pub impulse_ratio: f64,
+}
+
+impl Sliding {
+    /// Figures in SI units; `radius` in m, `unit` is the speed sqrt(E/rho) in m/s.
+    fn figures(&self, radius: f64, unit: f64) -> Tangential {
+        let after = self.exit - self.spin;
+        Tangential {
+            incident_velocity_m_s: self.incident * unit,
+            velocity_m_s: self.exit * unit,
+            restitution: (self.incident > 0.0).then(|| -after / self.incident),
+            angular_velocity_rad_s: self.spin * unit / radius,
+            impulse_ratio: self.impulse_ratio,
+        }
+    }
+}
+
 /// The particle at one moment, in run units.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Snapshot {
     /// Material points.
-    pub points: Vec<PointView>,
+    pub points: Vec<SectionView>,
     /// Surface from the south pole upwards: distance from the axis, height above the wall.
     pub outline: Vec<(f64, f64)>,
 }
@@ -42,9 +81,9 @@ impl Snapshot {
     pub fn map(&self, material: &Material, radius: f64) -> ParticleMap {
         let inside = self.points.iter().map(|p| MapPoint {
             part: Part::Inside,
-            r_m: p.position[0] * radius,
-            z_m: p.position[1] * radius,
-            size_m: (p.volume / (std::f64::consts::TAU * p.reference[0])).sqrt() * radius,
+            r_m: p.place[0] * radius,
+            z_m: p.place[1] * radius,
+            size_m: p.place[2] * radius,
             equivalent_plastic_strain: p.plastic_strain,
             von_mises_pa: p.von_mises * material.young_modulus,
         });
@@ -71,8 +110,10 @@ pub struct Record {
     pub contact_end: f64,
     /// Velocity of the centre of mass at the end, positive away from the wall.
     pub exit_speed: f64,
-    /// Impact speed.
+    /// Normal component of the impact velocity.
     pub speed: f64,
+    /// Motion along the wall, where there can be any.
+    pub sliding: Option<Sliding>,
     /// Largest energy imbalance over the incident kinetic energy.
     pub closure: f64,
     /// Volume mean of the equivalent plastic strain.
@@ -109,9 +150,13 @@ impl Record {
         value(a) + s * (value(b) - value(a))
     }
 
-    /// Largest force averaged over 2 % of the contact time.
+    /// Largest force averaged over 2 % of the contact time (of a particle that stays on the wall: of the time in which it
+    /// would bounce, six times that of half the displacement).
     fn max_force(&self) -> f64 {
-        let half = 0.5 * FORCE_WINDOW * self.contact_end;
+        let most = self.largest(|f| f.displacement);
+        let middle = self.frames.iter().find(|f| f.displacement >= 0.5 * most);
+        let bounce = 6.0 * middle.map_or(0.0, |f| f.time);
+        let half = 0.5 * FORCE_WINDOW * self.contact_end.min(bounce);
         let (from, to) = (half, self.contact_end - half);
         let mean = |t: f64| {
             let after = self.at(t + half, |f| f.impulse);
@@ -208,6 +253,7 @@ impl Record {
             points: self.points,
             steps: self.steps,
             wall_s,
+            tangential: self.sliding.map(|s| s.figures(radius, radius / time)),
             status: self.status.clone(),
         };
         Impact {

@@ -1,15 +1,14 @@
 //! Set-up of a run: the grid laid over the body, its points, nodal masses and surface points.
 
-use crate::impact::basis::Direction;
 use crate::impact::body::{SectionPoint, SurfacePoint, clip_cell, meridian};
 use crate::impact::contact::{Contact, Wall};
-use crate::impact::kernel::{Point, Points};
+use crate::impact::kernel::Points;
 use crate::impact::lattice;
+use crate::impact::section::Section;
 use crate::material::stress::Constitutive;
 use crate::plan::{Grid, graded};
 use crate::scheme::Layout;
 use crate::space::{Axisymmetric, Space};
-use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 /// Distance of surface points over the size of their cell. Halving it from 1 takes most of the staircase out of F as the
@@ -27,92 +26,21 @@ pub struct Model<S: Space, M: Constitutive<S>, W: Wall<S>, const N: usize> {
     pub mass: Vec<f64>,
     /// Reciprocal masses by component; 0 where the component is fixed (radial on the axis) or nothing is there.
     pub recip_mass: Vec<S::Vector>,
+    /// Coefficients that make the nodes' functions the reference coordinates.
+    pub places: Vec<S::Vector>,
+    /// Equal parts of the body, of which the grid holds one that carries the volume of all.
+    pub copies: f64,
     /// South pole, centre and north pole of the sphere as interpolations of the nodes.
     pub markers: [Vec<(usize, f64)>; 3],
 }
 
-/// The tensor grid of the axisymmetric section.
-#[derive(Debug, Clone)]
-pub struct Section<const P: usize> {
-    r: Direction<P>,
-    z: Direction<P>,
-}
+/// Model of the axisymmetric section.
+pub type AxisymmetricModel<M, const N: usize> = Model<Axisymmetric, M, Contact<Axisymmetric, N>, N>;
 
-impl<const P: usize> Section<P> {
-    fn new(grid: &Grid) -> Self {
-        let breaks = |length, to| graded(length, grid.fine, to, grid.growth, grid.coarse);
-        Section {
-            r: Direction::new(breaks(1.0, grid.fine_width)),
-            z: Direction::new(breaks(2.0, grid.fine_depth)),
-        }
-    }
-
-    /// Uniform cells of about `size` over a width and a height.
-    #[must_use]
-    pub fn uniform(size: f64, (width, height): (f64, f64)) -> Self {
-        let breaks = |length| graded(length, size, length, 1.0, size);
-        Section {
-            r: Direction::new(breaks(width)),
-            z: Direction::new(breaks(height)),
-        }
-    }
-
-    /// First node of cell (i, j).
-    #[must_use]
-    pub fn node(&self, i: usize, j: usize) -> usize {
-        j * self.r.functions() + i
-    }
-
-    /// Nodes.
-    #[must_use]
-    pub fn nodes(&self) -> usize {
-        self.r.functions() * self.z.functions()
-    }
-
-    /// Whether a node lies on the axis, where nothing moves sideways.
-    #[must_use]
-    pub fn is_on_axis(&self, node: usize) -> bool {
-        node % self.r.functions() == 0
-    }
-
-    /// Way from a cell's first node to its others.
-    #[must_use]
-    pub fn offsets<const N: usize>(&self) -> [usize; N] {
-        std::array::from_fn(|n| self.node(n % (P + 1), n / (P + 1)))
-    }
-
-    /// Cell that holds (r, z).
-    #[must_use]
-    pub fn cell_of(&self, r: f64, z: f64) -> (usize, usize) {
-        (self.r.cell_of(r), self.z.cell_of(z))
-    }
-
-    /// First node of the cell that holds (r, z), and the values of its nodes there.
-    fn interpolate<const N: usize>(&self, r: f64, z: f64) -> (usize, [f64; N]) {
-        let (i, j) = (self.r.cell_of(r), self.z.cell_of(z));
-        let (br, bz) = (self.r.evaluate(i, r), self.z.evaluate(j, z));
-        let values = std::array::from_fn(|n| br.value[n % (P + 1)] * bz.value[n / (P + 1)]);
-        (self.node(i, j), values)
-    }
-
-    /// Material point at (r, z): weights $N_{,r}$, $N_{,z}$, $N/r$ of its nodes.
-    #[must_use]
-    pub fn point<const N: usize>(&self, i: usize, j: usize, r: f64, z: f64, area: f64) -> Point<N> {
-        let (br, bz) = (self.r.evaluate(i, r), self.z.evaluate(j, z));
-        Point {
-            position: [r, z, 0.0],
-            values: std::array::from_fn(|n| br.value[n % (P + 1)] * bz.value[n / (P + 1)]),
-            weights: std::array::from_fn(|n| {
-                let (a, b) = (n % (P + 1), n / (P + 1));
-                [
-                    br.slope[a] * bz.value[b],
-                    br.value[a] * bz.slope[b],
-                    br.value[a] * bz.value[b] / r,
-                ]
-            }),
-            volume: 2.0 * PI * r * area,
-        }
-    }
+/// The grid of a plan over the unit sphere.
+fn section<const P: usize>(grid: &Grid) -> Section<P> {
+    let breaks = |length, to| graded(length, grid.fine, to, grid.growth, grid.coarse);
+    Section::new(breaks(1.0, grid.fine_width), breaks(2.0, grid.fine_depth))
 }
 
 /// Lay `grid` over a unit sphere of the given material. `N` must be $(P+1)^2$.
@@ -121,47 +49,44 @@ pub fn build<M: Constitutive<Axisymmetric>, const P: usize, const N: usize>(
     layout: Layout,
     material: M,
     contact_tolerance: f64,
-) -> Model<Axisymmetric, M, Contact<Axisymmetric, N>, N> {
+) -> AxisymmetricModel<M, N> {
     const { assert!(N == (P + 1) * (P + 1)) };
-    let section = Section::<P>::new(grid);
-    let offsets: [usize; N] = section.offsets();
-    let nodes = section.nodes();
-    let mut mass = vec![0.0; nodes];
-    let mut points = Points::new(material, offsets);
-    let lattice = section.lattice(layout);
-    for j in 0..section.z.cells() {
-        for i in 0..section.r.cells() {
-            let clipped = match layout {
-                Layout::Fitted => clip_cell(
-                    section.r.cell(i),
-                    section.z.cell(j),
-                    grid.points_per_direction,
-                ),
-                Layout::Lattice(_) => lattice.get(&(i, j)).cloned().unwrap_or_default(),
-            };
-            let cell: Vec<Point<N>> = clipped
-                .iter()
-                .map(|p| section.point(i, j, p.r, p.z, p.area))
-                .collect();
-            if cell.is_empty() {
-                continue;
-            }
-            let first = section.node(i, j);
-            for point in &cell {
-                for (n, value) in point.values.iter().enumerate() {
-                    mass[first + offsets[n]] += point.volume * value;
-                }
-            }
-            points.push_cell(first, &cell);
-        }
+    let mut section = section::<P>(grid);
+    let columns = section.r.cells();
+    let fitted = |c: usize| {
+        let (r, z) = (section.r.cell(c % columns), section.z.cell(c / columns));
+        clip_cell(r, z, grid.points_per_direction)
+    };
+    let clipped: Vec<Vec<SectionPoint>> = match layout {
+        Layout::Fitted => (0..section.cells()).map(fitted).collect(),
+        Layout::Lattice(count) => placed(&section, lattice::points(count)),
+    };
+    let area = |points: &Vec<SectionPoint>| points.iter().map(|p| p.area).sum();
+    let areas: Vec<f64> = clipped.iter().map(area).collect();
+    section.carry(&areas, grid.remedies.least_fill);
+    let mut carried = vec![Vec::new(); section.cells()];
+    for (c, points) in clipped.iter().enumerate() {
+        let home = section.home(c);
+        let point = |p: &SectionPoint| section.point(home, p.r, p.z, 2.0 * PI * p.r * p.area);
+        carried[home].extend(points.iter().map(point));
     }
+    let mut points = Points::new(material, section.offsets(), grid.remedies.own_volume);
+    for (c, cell) in carried
+        .iter()
+        .enumerate()
+        .filter(|(_, cell)| !cell.is_empty())
+    {
+        points.push_cell(section.first_node(c), cell);
+    }
+    let mass = points.nodal_mass(section.nodes());
     let recip_mass = recip_mass(&mass, section.r.functions());
-    let mut contact = Contact::new(offsets, contact_tolerance);
-    for (p, height) in section.surface(layout) {
+    let mut contact = Contact::new(section.offsets(), contact_tolerance);
+    for (p, height) in surface(&section, layout) {
         let (first, values) = section.interpolate::<N>(p.r, p.z);
         contact.push(first, values, height, p.r);
     }
     contact.couple(&recip_mass);
+    let offsets: [usize; N] = section.offsets();
     let marker = |z: f64| {
         let (first, values) = section.interpolate::<N>(0.0, z);
         (0..N).map(|n| (first + offsets[n], values[n])).collect()
@@ -170,9 +95,37 @@ pub fn build<M: Constitutive<Axisymmetric>, const P: usize, const N: usize>(
         points,
         contact,
         recip_mass,
-        markers: [marker(0.0), marker(1.0), marker(2.0)],
+        markers: [0.0, 1.0, 2.0].map(marker),
+        places: (0..section.nodes()).map(|n| section.greville(n)).collect(),
+        copies: 1.0,
         mass,
     }
+}
+
+/// Points by the cell that holds them.
+fn placed<const P: usize>(section: &Section<P>, all: Vec<SectionPoint>) -> Vec<Vec<SectionPoint>> {
+    let mut cells = vec![Vec::new(); section.cells()];
+    for p in all {
+        cells[section.cell_of(p.r, p.z)].push(p);
+    }
+    cells
+}
+
+/// Surface points, two a cell along the exact meridian from pole to pole, with their heights above the wall; of a lattice
+/// its outermost points, the lowest of which touch at first.
+fn surface<const P: usize>(section: &Section<P>, layout: Layout) -> Vec<(SurfacePoint, f64)> {
+    let spacing = |p: SurfacePoint| {
+        let size = |(a, b): (f64, f64)| b - a;
+        let across = size(section.r.cell(section.r.cell_of(p.r)));
+        let up = size(section.z.cell(section.z.cell_of(p.z)));
+        CONTACT_SPACING * (across / (1.0 - p.z).abs().max(1e-3)).min(up / p.r.max(1e-3))
+    };
+    let points = match layout {
+        Layout::Fitted => meridian(PI, spacing),
+        Layout::Lattice(count) => lattice::outermost(count),
+    };
+    let lowest = points.first().map_or(0.0, |p| p.z);
+    points.into_iter().map(|p| (p, p.z - lowest)).collect()
 }
 
 /// Reciprocal masses; the first column of nodes lies on the axis, where the radial component is fixed.
@@ -184,54 +137,6 @@ fn recip_mass(mass: &[f64], columns: usize) -> Vec<[f64; 2]> {
             [if n % columns == 0 { 0.0 } else { w }, w]
         })
         .collect()
-}
-
-/// Greville points of all nodes of a grid: where coefficients that equal a coordinate make the field that coordinate.
-#[must_use]
-pub fn places(grid: &Grid) -> Vec<[f64; 2]> {
-    match grid.degree {
-        1 => Section::<1>::new(grid).places(),
-        2 => Section::<2>::new(grid).places(),
-        _ => Section::<3>::new(grid).places(),
-    }
-}
-
-impl<const P: usize> Section<P> {
-    /// Surface points, two a cell along the exact meridian from pole to pole, with their heights above the wall; of a
-    /// lattice its outermost points, the lowest of which touch at first.
-    fn surface(&self, layout: Layout) -> Vec<(SurfacePoint, f64)> {
-        let spacing = |p: SurfacePoint| {
-            let size = |(a, b): (f64, f64)| b - a;
-            let across = size(self.r.cell(self.r.cell_of(p.r)));
-            let up = size(self.z.cell(self.z.cell_of(p.z)));
-            CONTACT_SPACING * (across / (1.0 - p.z).abs().max(1e-3)).min(up / p.r.max(1e-3))
-        };
-        let points = match layout {
-            Layout::Fitted => meridian(PI, spacing),
-            Layout::Lattice(count) => lattice::outermost(count),
-        };
-        let lowest = points.first().map_or(0.0, |p| p.z);
-        points.into_iter().map(|p| (p, p.z - lowest)).collect()
-    }
-
-    /// Lattice points by cell; none for another layout.
-    fn lattice(&self, layout: Layout) -> BTreeMap<(usize, usize), Vec<SectionPoint>> {
-        let mut cells: BTreeMap<_, Vec<SectionPoint>> = BTreeMap::new();
-        if let Layout::Lattice(count) = layout {
-            for p in lattice::points(count) {
-                let cell = (self.r.cell_of(p.r), self.z.cell_of(p.z));
-                cells.entry(cell).or_default().push(p);
-            }
-        }
-        cells
-    }
-
-    /// Greville points of all nodes.
-    fn places(&self) -> Vec<[f64; 2]> {
-        let row =
-            |j| (0..self.r.functions()).map(move |i| [self.r.greville(i), self.z.greville(j)]);
-        (0..self.z.functions()).flat_map(row).collect()
-    }
 }
 
 #[cfg(test)]
@@ -252,6 +157,7 @@ mod tests {
             growth: 1.2,
             coarse: 0.15,
             dt_share: 1.0,
+            remedies: crate::plan::Remedies::NONE,
         }
     }
 
@@ -327,11 +233,11 @@ mod tests {
     fn uniform_compression_stores_the_closed_form_energy() {
         // u_z = -0.1 z: uniaxial strain with J = 0.9 everywhere; Greville coefficients make it exactly
         let mut m = model();
-        let section = Section::<2>::new(&grid());
+        let section = section::<2>(&grid());
         let mut u = vec![[0.0; 2]; m.mass.len()];
         for j in 0..section.z.functions() {
             for i in 0..section.r.functions() {
-                u[section.node(i, j)][1] = -0.1 * section.z.greville(j);
+                u[j * section.r.functions() + i][1] = -0.1 * section.z.greville(j);
             }
         }
         let mut force = vec![[0.0; 2]; m.mass.len()];

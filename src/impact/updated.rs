@@ -7,10 +7,10 @@
 use crate::curve::Status;
 use crate::impact::contact::{Contact, Wall};
 use crate::impact::deformation::{Deformation, gradient, pulled_back};
-use crate::impact::kernel::PointView;
-use crate::impact::record::{Frame, Record, Snapshot};
-use crate::impact::setup::Section;
-use crate::impact::{CONTACT_TOLERANCE, OUTPUTS, lattice};
+use crate::impact::record::{Frame, Record, SectionView, Snapshot};
+use crate::impact::run::OUTPUTS;
+use crate::impact::section::Section;
+use crate::impact::{CONTACT_TOLERANCE, lattice};
 use crate::lanes::Lanes;
 use crate::material::stress::{Constitutive, Response};
 use crate::plan::Plan;
@@ -168,10 +168,10 @@ impl<'a, M: Constitutive<Axisymmetric>, const P: usize, const N: usize> Updated<
     fn find_nodes(&mut self) {
         let reach = |p: &Mover<M::State>| {
             let (r, z) = (p.position[0], p.position[1]);
-            let (i, j) = self.section.cell_of(r, z);
-            let point = self.section.point::<N>(i, j, r, z, 1.0);
+            let cell = self.section.cell_of(r, z);
+            let point = self.section.point::<N>(cell, r, z, 1.0);
             Reach {
-                node: self.section.node(i, j),
+                node: self.section.first_node(cell),
                 values: point.values,
                 gradients: point.weights,
             }
@@ -346,19 +346,16 @@ impl<'a, M: Constitutive<Axisymmetric>, const P: usize, const N: usize> Updated<
         let view = |p: &Mover<M::State>| {
             let f = &p.deformation;
             let j = (f[0] * f[3] - f[1] * f[2]) * f[4];
-            PointView {
-                position: [p.position[0], p.position[1], 0.0],
-                reference: [p.start[0], p.start[1], 0.0],
-                volume: p.volume,
+            let size = (p.volume / (2.0 * PI * p.start[0])).sqrt();
+            SectionView {
+                place: [p.position[0], p.position[1], size],
                 plastic_strain: M::plastic_strain(&p.state).0[0],
                 von_mises: 1.5f64.sqrt() * p.shear_norm / j,
             }
         };
         let outline = |&c: &usize| {
-            (
-                self.movers[c].position[0],
-                self.movers[c].position[1] - self.sole,
-            )
+            let [r, z] = self.movers[c].position;
+            (r, z - self.sole)
         };
         Snapshot {
             points: self.movers.iter().map(view).collect(),
@@ -384,6 +381,7 @@ impl<'a, M: Constitutive<Axisymmetric>, const P: usize, const N: usize> Updated<
             contact_end: self.contact_end,
             exit_speed: self.mean(|p| p.velocity[1]),
             speed: self.speed,
+            sliding: None,
             // all that is missing is put down to the transfers; they are not audited one by one
             closure: 0.0,
             transfer_loss: frames.last().map_or(0.0, missing),

@@ -9,25 +9,19 @@ use crate::scheme::{Layout, Reference, Scheme, TimeStep, Transfer};
 use crate::unit::{engineering, significant};
 use std::f64::consts::PI;
 
-/// Background grid of the axisymmetric section, lengths in R.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Grid {
-    /// Degree of the B-splines, 1 to 3.
-    pub degree: usize,
-    /// Gauss points a direction in every smooth piece of a cell.
-    pub points_per_direction: usize,
-    /// Cell size at the contact pole.
-    pub fine: f64,
-    /// Distance from the axis up to which cells stay fine.
-    pub fine_width: f64,
-    /// Height above the pole up to which cells stay fine.
-    pub fine_depth: f64,
-    /// Growth from cell to cell beyond.
-    pub growth: f64,
-    /// Largest cell.
-    pub coarse: f64,
-    /// Share of the stable time step that is used, at most 1 (smaller to show that dt does not matter).
-    pub dt_share: f64,
+mod grid;
+
+pub use grid::{Grid, Remedies, graded};
+
+/// Part of the sphere that is simulated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Geometry {
+    /// The section (r, z): normal impact, no friction.
+    Axisymmetric,
+    /// Three dimensions, x >= 0 and y >= 0: normal impact.
+    Quarter,
+    /// Three dimensions, y >= 0: oblique impact along x.
+    Half,
 }
 
 /// Whether an effect is simulated, and why.
@@ -57,12 +51,20 @@ pub struct Estimate {
 pub struct Plan {
     /// Impact speed, m/s.
     pub velocity: f64,
+    /// Angle of the impact velocity from the wall's normal, rad.
+    pub angle: f64,
+    /// Friction coefficient of the wall.
+    pub friction: f64,
+    /// Part of the sphere that is simulated.
+    pub geometry: Geometry,
     /// Expected size of the impact.
     pub estimate: Estimate,
     /// Effects, on or off, with reasons.
     pub effects: Vec<Effect>,
     /// Whether the body yields in this run.
     pub plastic: bool,
+    /// Relative error asked for in F*, delta* and e.
+    pub tolerance: f64,
     /// Grid.
     pub grid: Grid,
     /// Method; another than the default only to be compared.
@@ -82,6 +84,8 @@ pub struct Plan {
 /// Point-steps a second and core that predictions assume (axisymmetric, quadratic); with the factors of [`throughput`]
 /// from `impactlaw cost cases/thesis-3.toml --quick` and the same of `cases/thesis-4-4.toml`.
 const THROUGHPUT: f64 = 1.8e7;
+/// The same for three dimensions.
+const SOLID_THROUGHPUT: f64 = 6e6;
 
 /// Mean contact pressure over yield strength when fully plastic, used for estimates only (Tabor).
 const PLASTIC_PRESSURE_RATIO: f64 = 2.8;
@@ -116,15 +120,28 @@ pub fn estimate(material: &Material, velocity: f64) -> Estimate {
 #[must_use]
 pub fn plan(case: &Case, velocity: f64) -> Plan {
     let material = &case.material;
-    let estimate = estimate(material, velocity);
-    let (effects, plastic) = effects(case, velocity);
-    let grid = grid(&estimate, case.tolerance);
+    let normal = velocity * case.angle.cos();
+    let estimate = estimate(material, normal);
+    let geometry = geometry(case);
+    let (effects, plastic) = effects(case, normal);
+    let mut grid = match geometry {
+        Geometry::Axisymmetric => grid(&estimate, case.tolerance),
+        _ => solid_grid(&estimate, case),
+    };
+    let severity = large_deformation(case, normal);
+    if geometry == Geometry::Axisymmetric && severity > LARGE_FROM {
+        grid.remedies = Remedies::LARGE;
+    }
     let ring_time = 1.5 * fundamental_period(material.poisson_ratio);
     let plan = Plan {
         velocity,
+        angle: case.angle,
+        friction: case.friction,
+        geometry,
         estimate,
         effects,
         plastic,
+        tolerance: case.tolerance,
         grid,
         scheme: Scheme::default(),
         ring_time,
@@ -148,6 +165,9 @@ pub fn with_prediction(mut plan: Plan, material: &Material) -> Plan {
 
 /// Point-steps a second of a plan's degree and scheme.
 fn throughput(plan: &Plan) -> f64 {
+    if plan.geometry != Geometry::Axisymmetric {
+        return SOLID_THROUGHPUT;
+    }
     let degree = [0.75, 1.0, 0.4][plan.grid.degree.clamp(1, 3) - 1];
     let transfer = match plan.scheme.transfer {
         Transfer::Persistent => 1.0,
@@ -177,7 +197,47 @@ fn grid(estimate: &Estimate, tolerance: f64) -> Grid {
         growth: 1.15,
         coarse: 0.1,
         dt_share: 1.0,
+        remedies: Remedies::NONE,
     }
+}
+
+/// Three dimensions where friction acts, with as many planes of symmetry as the impact has.
+fn geometry(case: &Case) -> Geometry {
+    match (case.angle > 0.0, case.friction > 0.0) {
+        // a frictionless wall feels nothing of the motion along it
+        (_, false) => Geometry::Axisymmetric,
+        (false, true) => Geometry::Quarter,
+        (true, true) => Geometry::Half,
+    }
+}
+
+/// Grid in three dimensions: coarser for the same tolerance, because the edge of the contact crosses cells at all angles and
+/// the staircase averages out. Fine cells also cover the way that the contact rolls over the surface.
+fn solid_grid(estimate: &Estimate, case: &Case) -> Grid {
+    let a = estimate.contact_radius;
+    let slip = case.angle.tan().min(7.0 * case.friction);
+    let rolled = 2.0 / 7.0 * slip * estimate.contact_time * estimate.displacement / 2.94;
+    Grid {
+        degree: 2,
+        points_per_direction: 2,
+        fine: a / (10.0 * (0.02 / case.tolerance).sqrt()).clamp(6.0, 20.0),
+        fine_width: (1.2 * a + rolled).min(1.0),
+        fine_depth: 0.6 * a,
+        growth: 1.3,
+        coarse: 0.15,
+        dt_share: 1.0,
+        remedies: Remedies::NONE,
+    }
+}
+
+/// $\rho V^2/Y$ from which the remedies against large deformation are on.
+const LARGE_FROM: f64 = 0.1;
+
+/// Dynamic pressure over strength, $\rho V^2/Y$; 0 for an elastic body.
+fn large_deformation(case: &Case, velocity: f64) -> f64 {
+    let m = &case.material;
+    m.flow
+        .map_or(0.0, |f| m.density * velocity * velocity / f.yield_strength)
 }
 
 /// Which effects the scene calls for.
@@ -199,16 +259,34 @@ fn effects(case: &Case, velocity: f64) -> (Vec<Effect>, bool) {
         ),
     };
     let hardening = case.material.flow.map_or(0.0, |f| f.hardening_modulus);
+    let solid = geometry(case) != Geometry::Axisymmetric;
+    let severity = large_deformation(case, velocity);
     let list = vec![
         Effect {
             name: "three dimensions",
-            on: false,
-            reason: "a normal impact on a plane is axisymmetric".to_owned(),
+            on: solid,
+            reason: match geometry(case) {
+                Geometry::Axisymmetric if case.angle > 0.0 => {
+                    "without friction only the normal velocity matters".to_owned()
+                }
+                Geometry::Axisymmetric => "a normal impact on a plane is axisymmetric".to_owned(),
+                Geometry::Quarter => {
+                    "friction acts in the wall; a quarter, two planes of symmetry".to_owned()
+                }
+                Geometry::Half => format!(
+                    "{} from the normal; a half, one plane of symmetry",
+                    engineering(case.angle.to_degrees(), "deg", 3)
+                ),
+            },
         },
         Effect {
             name: "friction",
-            on: false,
-            reason: "the wall is frictionless".to_owned(),
+            on: solid,
+            reason: if solid {
+                format!("coefficient {}", case.friction)
+            } else {
+                "the wall is frictionless".to_owned()
+            },
         },
         Effect {
             name: "plasticity",
@@ -223,6 +301,14 @@ fn effects(case: &Case, velocity: f64) -> (Vec<Effect>, bool) {
             } else {
                 "no hardening modulus given".to_owned()
             },
+        },
+        Effect {
+            name: "large deformation",
+            on: severity > LARGE_FROM,
+            reason: format!(
+                "rho V^2/Y is {}, remedies start at {LARGE_FROM}",
+                significant(severity, 3)
+            ),
         },
         Effect {
             name: "gravity",
@@ -246,12 +332,16 @@ fn predict(plan: &Plan, material: &Material) -> (usize, u64) {
     let grid = &plan.grid;
     let count =
         |length: f64, to: f64| graded(length, grid.fine, to, grid.growth, grid.coarse).len();
-    let points = match plan.scheme.layout {
-        Layout::Fitted => {
-            let cells = count(1.0, grid.fine_width) * count(2.0, grid.fine_depth);
-            0.8 * (cells * grid.points_per_direction.pow(2)) as f64
-        }
-        Layout::Lattice(per_diameter) => PI / 8.0 * per_diameter * per_diameter,
+    let (across, up) = (
+        count(1.0, grid.fine_width) as f64,
+        count(2.0, grid.fine_depth) as f64,
+    );
+    let side = grid.points_per_direction as f64;
+    let points = match (plan.geometry, plan.scheme.layout) {
+        (Geometry::Quarter, _) => 0.6 * across.powi(2) * up * side.powi(3),
+        (Geometry::Half, _) => 1.2 * across.powi(2) * up * side.powi(3),
+        (_, Layout::Fitted) => 0.8 * across * up * side.powi(2),
+        (_, Layout::Lattice(per_diameter)) => PI / 8.0 * per_diameter * per_diameter,
     };
     let nu = material.poisson_ratio;
     let speed = ((1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu))).sqrt();
@@ -261,50 +351,4 @@ fn predict(plan: &Plan, material: &Material) -> (usize, u64) {
     };
     let duration = plan.estimate.contact_time + plan.ring_time;
     (points as usize, (duration / dt) as u64)
-}
-
-/// Breakpoints of a direction: uniform cells of size `fine` over `[0, fine_to]`, then each at most `growth` times the
-/// one before, none larger than `coarse`, ending exactly at `length`.
-///
-/// The graded part is rescaled to end at `length`; cells therefore differ from `fine` by less than one cell's share.
-#[must_use]
-pub fn graded(length: f64, fine: f64, fine_to: f64, growth: f64, coarse: f64) -> Vec<f64> {
-    let n_fine = (fine_to.min(length) / fine).ceil().max(1.0) as usize;
-    let mut sizes = vec![1.0; n_fine];
-    let mut total = n_fine as f64;
-    let mut size = 1.0f64;
-    while total * fine < length {
-        size = (size * growth).min((coarse / fine).max(1.0));
-        sizes.push(size);
-        total += size;
-    }
-    let scale = length / total;
-    let mut x = 0.0;
-    let mut breaks = vec![0.0];
-    for s in &sizes {
-        x += s * scale;
-        breaks.push(x);
-    }
-    if let Some(last) = breaks.last_mut() {
-        *last = length;
-    }
-    breaks
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn grading_respects_growth_and_ends() {
-        let b = graded(2.0, 0.01, 0.1, 1.2, 0.1);
-        assert_eq!(b[b.len() - 1], 2.0);
-        let sizes: Vec<f64> = b.windows(2).map(|w| w[1] - w[0]).collect();
-        assert!(
-            sizes
-                .windows(2)
-                .all(|s| s[1] <= 1.2001 * s[0] && s[1] > 0.99 * s[0])
-        );
-        assert!(sizes[0] <= 0.01 && sizes[0] > 0.008);
-    }
 }

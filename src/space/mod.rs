@@ -1,0 +1,78 @@
+//! Space: what a run's kernel is generic over, from the components of a node to the tensors of a point.
+//!
+//! [`Axisymmetric`] carries (r, z) and the hoop stretch, [`Solid`] all three dimensions. All tensors hold [`Lanes`]: four
+//! material points side by side.
+
+mod axisymmetric;
+mod solid;
+
+pub use axisymmetric::{AxialGradient, AxialSymmetric, Axisymmetric};
+pub use solid::{Solid, SolidGradient, SolidSymmetric};
+
+use crate::lanes::Lanes;
+
+/// Symmetric tensor of a space.
+pub trait Symmetric: Copy + Send + Sync + 'static {
+    /// Unit tensor.
+    fn identity() -> Self;
+    /// Trace.
+    fn trace(&self) -> Lanes;
+    /// `self + s 1`.
+    #[must_use]
+    fn shifted(&self, s: Lanes) -> Self;
+    /// `s self`.
+    #[must_use]
+    fn scaled(&self, s: Lanes) -> Self;
+    /// `self : self`.
+    fn squared_norm(&self) -> Lanes;
+    /// Determinant.
+    fn determinant(&self) -> Lanes;
+    /// `self` where `test > 0`, else `other`.
+    #[must_use]
+    fn where_positive(&self, test: Lanes, other: &Self) -> Self;
+}
+
+/// A space a run can live in.
+pub trait Space: Copy + Send + Sync + 'static {
+    /// Vector of a node (displacement, velocity, force).
+    type Vector: Copy + Default + Send + Sync + std::fmt::Debug + AsRef<[f64]> + AsMut<[f64]>;
+    /// Deformation gradient, or first Piola-Kirchhoff stress.
+    type Gradient: Copy + Send + Sync;
+    /// Stress-like tensor.
+    type Symmetric: Symmetric;
+    /// Component of a vector that is normal to the wall.
+    const NORMAL: usize;
+    /// Component of a vector along which an oblique impact slides; `None` where only normal impacts exist.
+    const SLIDING: Option<usize>;
+
+    /// Moment $(x \times v)_y$ about the axis an oblique impact turns about; `x` from any fixed point.
+    fn moment(x: &Self::Vector, v: &Self::Vector) -> f64;
+    /// A material point of reference volume `volume` as seen in the plane of a map: distance along it, height, edge length.
+    /// `None` for points farther than `depth` from that plane.
+    fn section(
+        position: &[f64; 3],
+        reference: &[f64; 3],
+        volume: f64,
+        depth: f64,
+    ) -> Option<[f64; 3]>;
+
+    /// Unit deformation gradient.
+    fn identity() -> Self::Gradient;
+    /// `gradient += u (x) grad N` for one node with weights `w`.
+    fn add_node(gradient: &mut Self::Gradient, u: &Self::Vector, w: &[Lanes; 3]);
+    /// `force += P grad N` lane by lane, for one node with weights `w`.
+    fn add_force(force: &mut [Lanes; 3], p: &Self::Gradient, w: &[Lanes; 3]);
+    /// Determinant J.
+    fn determinant(f: &Self::Gradient) -> Lanes;
+    /// $F C F^T$.
+    fn push_forward(f: &Self::Gradient, c: &Self::Symmetric) -> Self::Symmetric;
+    /// $F^{-1} b F^{-T}$, with `1/J` given.
+    fn pull_back(f: &Self::Gradient, recip_j: Lanes, b: &Self::Symmetric) -> Self::Symmetric;
+    /// First Piola-Kirchhoff stress $\tau F^{-T}$ times `volume`, with `1/J` given.
+    fn first_piola(
+        tau: &Self::Symmetric,
+        f: &Self::Gradient,
+        recip_j: Lanes,
+        volume: Lanes,
+    ) -> Self::Gradient;
+}

@@ -1,0 +1,261 @@
+//! Three-dimensional Cartesian space: full tensors, the wall plane is z = 0.
+
+use super::{Space, Symmetric};
+use crate::lanes::Lanes;
+
+/// Three dimensions: components (x, y, z), z normal to the wall; weights of a node are $N_{,x}$, $N_{,y}$, $N_{,z}$.
+#[derive(Debug, Clone, Copy)]
+pub struct Solid;
+
+/// Symmetric tensor in three dimensions.
+#[derive(Debug, Clone, Copy)]
+pub struct SolidSymmetric {
+    xx: Lanes,
+    yy: Lanes,
+    zz: Lanes,
+    xy: Lanes,
+    xz: Lanes,
+    yz: Lanes,
+}
+
+/// Gradient in three dimensions: row (component), then column (direction).
+#[derive(Debug, Clone, Copy)]
+pub struct SolidGradient([[Lanes; 3]; 3]);
+
+impl SolidSymmetric {
+    /// Row `i` of the full matrix.
+    #[inline(always)]
+    fn rows(&self) -> [[Lanes; 3]; 3] {
+        [
+            [self.xx, self.xy, self.xz],
+            [self.xy, self.yy, self.yz],
+            [self.xz, self.yz, self.zz],
+        ]
+    }
+
+    /// Each pair of components combined.
+    #[inline(always)]
+    fn zip(&self, o: &Self, f: impl Fn(Lanes, Lanes) -> Lanes) -> Self {
+        SolidSymmetric {
+            xx: f(self.xx, o.xx),
+            yy: f(self.yy, o.yy),
+            zz: f(self.zz, o.zz),
+            xy: f(self.xy, o.xy),
+            xz: f(self.xz, o.xz),
+            yz: f(self.yz, o.yz),
+        }
+    }
+}
+
+impl Symmetric for SolidSymmetric {
+    #[inline(always)]
+    fn identity() -> Self {
+        let (one, zero) = (Lanes::splat(1.0), Lanes::default());
+        SolidSymmetric {
+            xx: one,
+            yy: one,
+            zz: one,
+            xy: zero,
+            xz: zero,
+            yz: zero,
+        }
+    }
+    #[inline(always)]
+    fn trace(&self) -> Lanes {
+        self.xx + self.yy + self.zz
+    }
+    #[inline(always)]
+    fn shifted(&self, s: Lanes) -> Self {
+        SolidSymmetric {
+            xx: self.xx + s,
+            yy: self.yy + s,
+            zz: self.zz + s,
+            ..*self
+        }
+    }
+    #[inline(always)]
+    fn scaled(&self, s: Lanes) -> Self {
+        self.zip(self, |a, _| a * s)
+    }
+    #[inline(always)]
+    fn squared_norm(&self) -> Lanes {
+        let diagonal = self.xx * self.xx + self.yy * self.yy + self.zz * self.zz;
+        diagonal + (self.xy * self.xy + self.xz * self.xz + self.yz * self.yz) * 2.0
+    }
+    #[inline(always)]
+    fn determinant(&self) -> Lanes {
+        Solid::determinant(&SolidGradient(self.rows()))
+    }
+    #[inline(always)]
+    fn where_positive(&self, test: Lanes, other: &Self) -> Self {
+        self.zip(other, |a, b| a.where_positive(test, b))
+    }
+}
+
+/// Matrix of cofactors, $J F^{-T}$.
+#[inline(always)]
+fn cofactors(f: &SolidGradient) -> [[Lanes; 3]; 3] {
+    let [a, b, c] = &f.0;
+    [cross(b, c), cross(c, a), cross(a, b)]
+}
+
+#[inline(always)]
+fn cross(a: &[Lanes; 3], b: &[Lanes; 3]) -> [Lanes; 3] {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+#[inline(always)]
+fn dot(a: &[Lanes; 3], b: &[Lanes; 3]) -> Lanes {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// $A C A^T$ for the rows of A.
+#[inline(always)]
+fn congruent(a: &[[Lanes; 3]; 3], c: &SolidSymmetric) -> SolidSymmetric {
+    let rows = c.rows();
+    let half = a.map(|row| rows.map(|column| dot(&row, &column)));
+    SolidSymmetric {
+        xx: dot(&half[0], &a[0]),
+        yy: dot(&half[1], &a[1]),
+        zz: dot(&half[2], &a[2]),
+        xy: dot(&half[0], &a[1]),
+        xz: dot(&half[0], &a[2]),
+        yz: dot(&half[1], &a[2]),
+    }
+}
+
+impl Space for Solid {
+    type Vector = [f64; 3];
+    type Gradient = SolidGradient;
+    type Symmetric = SolidSymmetric;
+    const NORMAL: usize = 2;
+    const SLIDING: Option<usize> = Some(0);
+
+    fn moment(x: &[f64; 3], v: &[f64; 3]) -> f64 {
+        x[2] * v[0] - x[0] * v[2]
+    }
+    fn section(
+        position: &[f64; 3],
+        reference: &[f64; 3],
+        volume: f64,
+        depth: f64,
+    ) -> Option<[f64; 3]> {
+        (reference[1].abs() <= depth).then(|| [position[0], position[2], volume.cbrt()])
+    }
+
+    #[inline(always)]
+    fn identity() -> SolidGradient {
+        SolidGradient(SolidSymmetric::identity().rows())
+    }
+    #[inline(always)]
+    fn add_node(g: &mut SolidGradient, u: &[f64; 3], w: &[Lanes; 3]) {
+        for (row, u) in g.0.iter_mut().zip(u) {
+            let u = Lanes::splat(*u);
+            for (entry, w) in row.iter_mut().zip(w) {
+                *entry += u * *w;
+            }
+        }
+    }
+    #[inline(always)]
+    fn add_force(force: &mut [Lanes; 3], p: &SolidGradient, w: &[Lanes; 3]) {
+        for (force, row) in force.iter_mut().zip(&p.0) {
+            *force += dot(row, w);
+        }
+    }
+    #[inline(always)]
+    fn determinant(f: &SolidGradient) -> Lanes {
+        dot(&f.0[0], &cross(&f.0[1], &f.0[2]))
+    }
+    #[inline(always)]
+    fn push_forward(f: &SolidGradient, c: &SolidSymmetric) -> SolidSymmetric {
+        congruent(&f.0, c)
+    }
+    #[inline(always)]
+    fn pull_back(f: &SolidGradient, recip_j: Lanes, b: &SolidSymmetric) -> SolidSymmetric {
+        let c = cofactors(f);
+        let inverse = [0, 1, 2].map(|i| [c[0][i] * recip_j, c[1][i] * recip_j, c[2][i] * recip_j]);
+        congruent(&inverse, b)
+    }
+    #[inline(always)]
+    fn first_piola(
+        tau: &SolidSymmetric,
+        f: &SolidGradient,
+        recip_j: Lanes,
+        volume: Lanes,
+    ) -> SolidGradient {
+        let c = cofactors(f);
+        let scale = recip_j * volume;
+        let columns = [0, 1, 2].map(|j| [c[0][j] * scale, c[1][j] * scale, c[2][j] * scale]);
+        SolidGradient(
+            tau.rows()
+                .map(|row| columns.each_ref().map(|column| dot(&row, column))),
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Four different, well conditioned gradients.
+    fn gradient() -> SolidGradient {
+        let mut f = Solid::identity();
+        for (i, row) in f.0.iter_mut().enumerate() {
+            for (j, entry) in row.iter_mut().enumerate() {
+                for (k, x) in entry.0.iter_mut().enumerate() {
+                    *x += 0.2 * ((3 * i + 5 * j + 7 * k) as f64).sin();
+                }
+            }
+        }
+        f
+    }
+
+    fn metric() -> SolidSymmetric {
+        congruent(&cofactors(&gradient()), &SolidSymmetric::identity())
+    }
+
+    fn distance(a: &SolidSymmetric, b: &SolidSymmetric) -> f64 {
+        let d = a.zip(b, |a, b| a - b).squared_norm();
+        d.0.iter().fold(0.0f64, |m, x| m.max(x.sqrt()))
+    }
+
+    #[test]
+    fn pulling_back_undoes_pushing_forward() {
+        let f = gradient();
+        let recip_j = Solid::determinant(&f).recip();
+        let there = Solid::push_forward(&f, &metric());
+        assert!(distance(&Solid::pull_back(&f, recip_j, &there), &metric()) < 1e-13);
+    }
+
+    #[test]
+    fn first_piola_times_the_transposed_gradient_is_the_kirchhoff_stress() {
+        let (f, tau) = (gradient(), metric());
+        let recip_j = Solid::determinant(&f).recip();
+        let p = Solid::first_piola(&tau, &f, recip_j, Lanes::splat(2.0));
+        for (i, row) in tau.rows().iter().enumerate() {
+            for (j, entry) in row.iter().enumerate() {
+                let product = dot(&p.0[i], &f.0[j]) - *entry * 2.0;
+                assert!(product.0.iter().all(|x| x.abs() < 1e-13), "{i} {j}");
+            }
+        }
+    }
+
+    #[test]
+    fn norm_and_determinant_do_not_change_with_rotation() {
+        let (s, c) = 0.7f64.sin_cos();
+        let rotation =
+            [[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]].map(|row| row.map(Lanes::splat));
+        let turned = congruent(&rotation, &metric());
+        for (a, b) in [
+            (metric().squared_norm(), turned.squared_norm()),
+            (metric().determinant(), turned.determinant()),
+            (metric().trace(), turned.trace()),
+        ] {
+            assert!((0..4).all(|k| (a.0[k] / b.0[k] - 1.0).abs() < 1e-13));
+        }
+    }
+}

@@ -1,0 +1,91 @@
+//! Impacts in three dimensions: against the axisymmetric solver, and the impulses and spin of friction.
+
+use impactlaw::case::Case;
+use impactlaw::curve::{Impact, Status};
+use impactlaw::impact::simulate;
+use impactlaw::plan::{Geometry, Plan, plan};
+use std::path::Path;
+
+/// An elastic impact at a fiftieth of the wave speed on a coarse grid.
+fn oblique(degrees: f64, friction: f64) -> (Case, Plan) {
+    let text = format!(
+        "[particle]\nradius = \"1 mm\"\n[material]\ndensity = \"1000 kg/m3\"\nyoung_modulus = \"1 GPa\"\n\
+         poisson_ratio = 0.3\n[impact]\nvelocities = [\"20 m/s\"]\nangle = \"{degrees} deg\"\n\
+         [wall]\nfriction = {friction}\n[accuracy]\ntolerance = 0.1\n"
+    );
+    let case = Case::parse(&text, Path::new("oblique.toml")).unwrap();
+    let mut plan = plan(&case, 20.0);
+    if plan.geometry != Geometry::Axisymmetric {
+        plan.grid.fine = plan.estimate.contact_radius / 4.0;
+        plan.grid.growth = 1.6;
+        plan.grid.coarse = 0.25;
+    }
+    (case, plan)
+}
+
+fn run(case: &Case, plan: &Plan) -> Impact {
+    let impact = simulate(&case.material, case.radius, plan).impact;
+    assert_eq!(impact.summary.status, Status::Ok);
+    assert!(impact.summary.energy_closure < 0.01);
+    impact
+}
+
+fn change(a: f64, b: f64) -> f64 {
+    (a / b - 1.0).abs()
+}
+
+#[test]
+fn a_normal_impact_in_three_dimensions_agrees_with_the_axisymmetric_one() {
+    let (case, mut plan) = oblique(0.0, 0.0);
+    plan.grid.growth = 1.4;
+    plan.grid.coarse = 0.2;
+    let flat = run(&case, &plan).summary;
+    plan.geometry = Geometry::Quarter;
+    let solid = run(&case, &plan).summary;
+    assert!(change(solid.max_force_n, flat.max_force_n) < 0.015);
+    assert!(change(solid.max_displacement_m, flat.max_displacement_m) < 0.01);
+    assert!(change(solid.restitution, flat.restitution) < 0.005);
+    assert!(change(solid.contact_time_s, flat.contact_time_s) < 0.01);
+    assert_eq!(solid.tangential, None);
+}
+
+#[test]
+fn full_sliding_gives_the_friction_impulse_and_the_spin_that_follows_from_it() {
+    let (case, plan) = oblique(70.0, 0.2);
+    assert_eq!(plan.geometry, Geometry::Half);
+    let s = run(&case, &plan).summary;
+    let t = s.tangential.unwrap();
+    assert!(change(t.impulse_ratio, 0.2) < 0.01, "{}", t.impulse_ratio);
+    let normal = 20.0 * 70f64.to_radians().cos() * (1.0 + s.restitution);
+    let lost = t.incident_velocity_m_s - t.velocity_m_s;
+    assert!(
+        change(lost, t.impulse_ratio * normal) < 2e-3,
+        "{lost} {normal}"
+    );
+    // the lever is shorter than R by the flattening
+    let lever = t.angular_velocity_rad_s * case.radius / (2.5 * lost);
+    assert!(
+        lever < 1.0 && lever > 1.0 - s.max_displacement_m / case.radius,
+        "{lever}"
+    );
+}
+
+#[test]
+fn threads_do_not_change_a_bit_and_steep_impacts_stick() {
+    let (case, plan) = oblique(20.0, 0.5);
+    let in_pool = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
+        pool.install(|| run(&case, &plan))
+    };
+    let (one, two) = (in_pool(1), in_pool(2));
+    assert!(one.curve == two.curve && one.summary.tangential == two.summary.tangential);
+    // Maw, Barber and Fawcett 1976: the contact point of a steep impact leaves in the direction it came
+    let t = one.summary.tangential.unwrap();
+    assert!(
+        t.impulse_ratio < 0.45 && t.restitution.unwrap() < 0.0,
+        "{t:?}"
+    );
+}
