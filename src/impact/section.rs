@@ -35,7 +35,7 @@ impl<const P: usize> Section<P> {
     /// Whether a node lies on the axis, where nothing moves sideways.
     #[must_use]
     pub fn is_on_axis(&self, node: usize) -> bool {
-        node % self.r.functions() == 0
+        node.is_multiple_of(self.r.functions())
     }
 
     /// Let full neighbours carry the cells that hold less than `least_fill` of their area, given the area of material in

@@ -40,6 +40,12 @@ impl Remedies {
         own_volume: 0.0,
         least_fill: 0.0,
     };
+    /// For yielding bodies in three dimensions, where points near the contact edge turn inside out long before the body is
+    /// flattened.
+    pub const SOLID: Remedies = Remedies {
+        own_volume: 0.1,
+        least_fill: 0.0,
+    };
     /// For impacts that flatten the body.
     pub const LARGE: Remedies = Remedies {
         own_volume: 0.1,

@@ -128,8 +128,10 @@ pub fn plan(case: &Case, velocity: f64) -> Plan {
         Geometry::Axisymmetric => grid(&estimate, case.tolerance),
         _ => solid_grid(&estimate, case),
     };
-    let severity = large_deformation(case, normal);
-    if geometry == Geometry::Axisymmetric && severity > LARGE_FROM {
+    let severity = severity(material, normal);
+    if geometry != Geometry::Axisymmetric && plastic {
+        grid.remedies = Remedies::SOLID;
+    } else if severity > LARGE_FROM {
         grid.remedies = Remedies::LARGE;
     }
     let ring_time = 1.5 * fundamental_period(material.poisson_ratio);
@@ -234,10 +236,9 @@ fn solid_grid(estimate: &Estimate, case: &Case) -> Grid {
 const LARGE_FROM: f64 = 0.1;
 
 /// Dynamic pressure over strength, $\rho V^2/Y$; 0 for an elastic body.
-fn large_deformation(case: &Case, velocity: f64) -> f64 {
-    let m = &case.material;
-    m.flow
-        .map_or(0.0, |f| m.density * velocity * velocity / f.yield_strength)
+fn severity(material: &Material, velocity: f64) -> f64 {
+    let pressure = material.density * velocity * velocity;
+    material.flow.map_or(0.0, |f| pressure / f.yield_strength)
 }
 
 /// Which effects the scene calls for.
@@ -260,7 +261,7 @@ fn effects(case: &Case, velocity: f64) -> (Vec<Effect>, bool) {
     };
     let hardening = case.material.flow.map_or(0.0, |f| f.hardening_modulus);
     let solid = geometry(case) != Geometry::Axisymmetric;
-    let severity = large_deformation(case, velocity);
+    let severity = severity(&case.material, velocity);
     let list = vec![
         Effect {
             name: "three dimensions",
@@ -350,5 +351,11 @@ fn predict(plan: &Plan, material: &Material) -> (usize, u64) {
         TimeStep::Fixed(dt) => dt,
     };
     let duration = plan.estimate.contact_time + plan.ring_time;
-    (points as usize, (duration / dt) as u64)
+    // cells squeezed thin shorten the step: 2.4, 7, 18, 62 and 169 times the steps at 0.3, 0.5, 1, 2 and 3 (E/Y 80, 320)
+    let squeeze = if plan.grid.remedies == Remedies::LARGE {
+        1.0 + 15.0 * severity(material, plan.velocity * plan.angle.cos()).powi(2)
+    } else {
+        1.0
+    };
+    (points as usize, (squeeze * duration / dt) as u64)
 }
