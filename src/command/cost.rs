@@ -199,7 +199,16 @@ fn check(impact: &Impact) -> Result<()> {
     })
 }
 
-/// Error against wall time, a line a ladder, and the Pareto front.
+/// Name under which a ladder's points stand in the figure: lattices are one group, the details of the fitted grid another.
+fn group(ladder: &str) -> &str {
+    match ladder {
+        "points" | "time step" | "far cells" | "growth" => "grid details",
+        _ if ladder.starts_with("lattice") => "lattices",
+        other => other,
+    }
+}
+
+/// Error against processor time, one colour a group of ladders, and the Pareto front.
 fn figure(rows: &[Row], name: String) -> Result<Figure> {
     let good = |r: &&Row| r.error > 0.0 && r.cpu_s > 0.0;
     let mut front: Vec<(f64, f64)> = rows
@@ -217,10 +226,11 @@ fn figure(rows: &[Row], name: String) -> Result<Figure> {
     }];
     for row in rows.iter().filter(good) {
         let point = (row.cpu_s, row.error);
-        match series.iter_mut().find(|s| s.label == row.ladder) {
+        let label = group(&row.ladder);
+        match series.iter_mut().find(|s| s.label == label) {
             Some(series) => series.points.push(point),
             None => series.push(Series {
-                label: row.ladder.clone(),
+                label: label.to_owned(),
                 role: Role::Theory,
                 mark: Mark::Points,
                 points: vec![point],

@@ -80,7 +80,7 @@ pub fn ink(role: Role, label: &str, nth: usize) -> Ink {
             let known = THEORIES
                 .iter()
                 .find(|(theory, ..)| name.starts_with(theory));
-            let (_, colour, dash) = known.unwrap_or(&THEORIES[(nth + 1) % THEORIES.len()]);
+            let (_, colour, dash) = known.unwrap_or(&THEORIES[DISTINCT[nth % DISTINCT.len()]]);
             Ink {
                 dash: *dash,
                 ..solid(*colour, 1.6)
@@ -88,6 +88,9 @@ pub fn ink(role: Role, label: &str, nth: usize) -> Ink {
         }
     }
 }
+
+/// Entries of [`THEORIES`] whose colours differ, for curves that are no theory.
+const DISTINCT: [usize; 8] = [1, 2, 4, 5, 6, 8, 9, 0];
 
 /// Anchors of the colour map viridis (S. van der Walt and N. Smith, 2015; CC0), equal steps from 0 to 1.
 const VIRIDIS: [Rgb; 9] = [
