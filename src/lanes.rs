@@ -1,43 +1,65 @@
 //! Lanes: four `f64` side by side, the width the kernel works in.
 //!
-//! Plain arrays with element-wise operators; the compiler turns them into vector instructions of whatever width the
-//! surrounding function is compiled for. No fused multiply-add is ever introduced, so every width gives the same bits.
+//! Element-wise operators on a value of vector type; the compiler turns them into vector instructions of whatever width
+//! the surrounding function is compiled for. (Held as a plain array, the four numbers are taken apart into scalars first
+//! and only partly put together again.) No fused multiply-add is ever introduced, so every width gives the same bits.
 
 use std::ops::{Add, AddAssign, Mul, Neg, Sub};
 
 /// Points handled side by side.
 pub const WIDTH: usize = 4;
 
+/// What the four numbers are held as between operators. Only the type is used, no instruction of the machine.
+#[cfg(target_arch = "x86_64")]
+type Register = std::arch::x86_64::__m256d;
+/// What the four numbers are held as between operators.
+#[cfg(not(target_arch = "x86_64"))]
+type Register = [f64; WIDTH];
+
 /// Four numbers, one per material point of a block.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[repr(align(32))]
-pub struct Lanes(pub [f64; WIDTH]);
+#[derive(Clone, Copy)]
+pub struct Lanes(Register);
 
 impl Lanes {
+    /// Four numbers side by side.
+    #[inline(always)]
+    #[must_use]
+    #[allow(clippy::useless_transmute)] // an array already where there is no vector type
+    pub fn new(numbers: [f64; WIDTH]) -> Self {
+        // SAFETY: both types are four f64 in the same order, and all bits are valid in both.
+        Lanes(unsafe { std::mem::transmute::<[f64; WIDTH], Register>(numbers) })
+    }
+
+    /// The four numbers.
+    #[inline(always)]
+    #[must_use]
+    #[allow(clippy::useless_transmute)] // see `new`
+    pub fn array(self) -> [f64; WIDTH] {
+        // SAFETY: as in `new`.
+        unsafe { std::mem::transmute::<Register, [f64; WIDTH]>(self.0) }
+    }
+
     /// The same number in every lane.
     #[inline(always)]
     #[must_use]
     pub fn splat(x: f64) -> Self {
-        Lanes([x; WIDTH])
+        Lanes::new([x; WIDTH])
     }
 
     /// Element-wise function of one argument.
     #[inline(always)]
     #[must_use]
     pub fn map(self, f: impl Fn(f64) -> f64) -> Self {
-        Lanes([f(self.0[0]), f(self.0[1]), f(self.0[2]), f(self.0[3])])
+        let [a, b, c, d] = self.array();
+        Lanes::new([f(a), f(b), f(c), f(d)])
     }
 
     /// Element-wise function of two arguments.
     #[inline(always)]
     #[must_use]
     pub fn zip(self, o: Self, f: impl Fn(f64, f64) -> f64) -> Self {
-        Lanes([
-            f(self.0[0], o.0[0]),
-            f(self.0[1], o.0[1]),
-            f(self.0[2], o.0[2]),
-            f(self.0[3], o.0[3]),
-        ])
+        let (a, b) = (self.array(), o.array());
+        Lanes::new([f(a[0], b[0]), f(a[1], b[1]), f(a[2], b[2]), f(a[3], b[3])])
     }
 
     /// Square root.
@@ -58,20 +80,22 @@ impl Lanes {
     #[inline(always)]
     #[must_use]
     pub fn sum(self) -> f64 {
-        (self.0[0] + self.0[1]) + (self.0[2] + self.0[3])
+        let [a, b, c, d] = self.array();
+        (a + b) + (c + d)
     }
 
     /// Smallest lane; NaN if any lane is NaN.
     #[inline(always)]
     #[must_use]
     pub fn min(self) -> f64 {
-        let mut least = self.0[0];
-        for &x in &self.0[1..] {
+        let numbers = self.array();
+        let mut least = numbers[0];
+        for &x in &numbers[1..] {
             if !(x >= least) {
                 least = x;
             }
         }
-        if self.0.iter().any(|x| x.is_nan()) {
+        if numbers.iter().any(|x| x.is_nan()) {
             f64::NAN
         } else {
             least
@@ -82,20 +106,17 @@ impl Lanes {
     #[inline(always)]
     #[must_use]
     pub fn where_positive(self, test: Self, other: Self) -> Self {
-        let mut out = other;
-        for k in 0..WIDTH {
-            if test.0[k] > 0.0 {
-                out.0[k] = self.0[k];
-            }
-        }
-        out
+        let (test, a, b) = (test.array(), self.array(), other.array());
+        let pick = |k: usize| if test[k] > 0.0 { a[k] } else { b[k] };
+        Lanes::new([pick(0), pick(1), pick(2), pick(3)])
     }
 
     /// Whether any lane is above zero.
     #[inline(always)]
     #[must_use]
     pub fn any_positive(self) -> bool {
-        (self.0[0] > 0.0) | (self.0[1] > 0.0) | (self.0[2] > 0.0) | (self.0[3] > 0.0)
+        let [a, b, c, d] = self.array();
+        (a > 0.0) | (b > 0.0) | (c > 0.0) | (d > 0.0)
     }
 
     /// Cube root of the reciprocal, $x^{-1/3}$ for $x > 0$, by Newton iteration from below (no library call per point).
@@ -119,6 +140,25 @@ impl Lanes {
             }
         }
         y
+    }
+}
+
+impl Default for Lanes {
+    #[inline(always)]
+    fn default() -> Self {
+        Lanes::splat(0.0)
+    }
+}
+
+impl PartialEq for Lanes {
+    fn eq(&self, o: &Self) -> bool {
+        self.array() == o.array()
+    }
+}
+
+impl std::fmt::Debug for Lanes {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_tuple("Lanes").field(&self.array()).finish()
     }
 }
 
@@ -168,18 +208,18 @@ mod tests {
     fn reciprocal_cube_root_reaches_rounding() {
         for i in 0..60 {
             let x = 0.3 + 0.045 * f64::from(i);
-            let y = Lanes::splat(x).recip_cbrt().0[0];
+            let y = Lanes::splat(x).recip_cbrt().array()[0];
             assert!((y - x.powf(-1.0 / 3.0)).abs() < 4e-15, "{x}: {y}");
         }
         for x in [1e-5, 1e-3, 0.1, 10.0, 1e3, 1e4_f64] {
-            let y = Lanes::splat(x).recip_cbrt().0[0];
+            let y = Lanes::splat(x).recip_cbrt().array()[0];
             assert!((y * x.cbrt() - 1.0).abs() < 1e-14, "{x}: {y}");
         }
     }
 
     #[test]
     fn smallest_lane_reports_nan() {
-        assert_eq!(Lanes([3.0, 1.0, 2.0, 5.0]).min(), 1.0);
-        assert!(Lanes([3.0, f64::NAN, 2.0, 5.0]).min().is_nan());
+        assert_eq!(Lanes::new([3.0, 1.0, 2.0, 5.0]).min(), 1.0);
+        assert!(Lanes::new([3.0, f64::NAN, 2.0, 5.0]).min().is_nan());
     }
 }

@@ -110,23 +110,23 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
     pub fn push_cell(&mut self, node: usize, points: &[Point<N>]) {
         let first = self.weights.len() as u32;
         for block in points.chunks(WIDTH) {
-            let mut weights = [[Lanes::default(); 3]; N];
-            let mut volume = Lanes::default();
+            let mut weights = [[[0.0; WIDTH]; 3]; N];
+            let mut volume = [0.0; WIDTH];
             for lane in 0..WIDTH {
                 let point = &block[lane.min(block.len() - 1)];
                 for (node, factors) in weights.iter_mut().zip(&point.weights) {
                     for (w, x) in node.iter_mut().zip(factors) {
-                        w.0[lane] = *x;
+                        w[lane] = *x;
                     }
                 }
-                volume.0[lane] = if lane < block.len() {
+                volume[lane] = if lane < block.len() {
                     point.volume
                 } else {
                     0.0
                 };
             }
-            self.weights.push(weights);
-            self.volumes.push(volume);
+            self.weights.push(weights.map(|node| node.map(Lanes::new)));
+            self.volumes.push(Lanes::new(volume));
             self.states.push(self.material.virgin());
         }
         let last = self.weights.len() as u32;
@@ -206,14 +206,14 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
                 let mises = (trial.deviator.squared_norm() * 1.5).sqrt() * j.recip();
                 let strain = M::plastic_strain(&self.states[block]);
                 for lane in 0..WIDTH {
-                    if self.volumes[block].0[lane] > 0.0 {
+                    if self.volumes[block].array()[lane] > 0.0 {
                         let (node, point) = &self.cold[all.len()];
                         all.push(PointView {
                             position: self.displaced(*node as usize, point, u),
                             reference: point.position,
                             volume: point.volume,
-                            plastic_strain: strain.0[lane],
-                            von_mises: mises.0[lane],
+                            plastic_strain: strain.array()[lane],
+                            von_mises: mises.array()[lane],
                         });
                     }
                 }

@@ -226,15 +226,15 @@ impl<'a, M: Constitutive<Axisymmetric>, const P: usize, const N: usize> Updated<
             let answer: Response<_> =
                 self.material
                     .update(&f, recip_j, j.recip_cbrt(), &mut p.state);
-            self.least_j = if self.least_j <= j.0[0] {
+            self.least_j = if self.least_j <= j.array()[0] {
                 self.least_j
             } else {
-                j.0[0]
+                j.array()[0]
             };
-            p.mean = answer.mean.0[0];
-            p.shear_norm = answer.deviator.squared_norm().0[0].sqrt();
-            self.plastic += answer.dissipation.0[0] * p.volume;
-            let pressure = self.material.moduli().volumetric_stress(j.0[0]);
+            p.mean = answer.mean.array()[0];
+            p.shear_norm = answer.deviator.squared_norm().array()[0].sqrt();
+            self.plastic += answer.dissipation.array()[0] * p.volume;
+            let pressure = self.material.moduli().volumetric_stress(j.array()[0]);
             let tau = answer.deviator.shifted(j * pressure);
             let stress = Axisymmetric::first_piola(&tau, &f, recip_j, Lanes::splat(p.volume));
             for (gradient, offset) in reach.gradients.iter().zip(&self.offsets) {
@@ -243,7 +243,7 @@ impl<'a, M: Constitutive<Axisymmetric>, const P: usize, const N: usize> Updated<
                 let mut force = [Lanes::default(); 3];
                 Axisymmetric::add_force(&mut force, &stress, &w);
                 for (k, force) in force.iter().take(2).enumerate() {
-                    self.v[n][k] -= self.dt * force.0[0] * self.recip_mass[n][k];
+                    self.v[n][k] -= self.dt * force.array()[0] * self.recip_mass[n][k];
                 }
             }
         }
@@ -349,7 +349,7 @@ impl<'a, M: Constitutive<Axisymmetric>, const P: usize, const N: usize> Updated<
             let size = (p.volume / (2.0 * PI * p.start[0])).sqrt();
             SectionView {
                 place: [p.position[0], p.position[1], size],
-                plastic_strain: M::plastic_strain(&p.state).0[0],
+                plastic_strain: M::plastic_strain(&p.state).array()[0],
                 von_mises: 1.5f64.sqrt() * p.shear_norm / j,
             }
         };
@@ -385,7 +385,7 @@ impl<'a, M: Constitutive<Axisymmetric>, const P: usize, const N: usize> Updated<
             // all that is missing is put down to the transfers; they are not audited one by one
             closure: 0.0,
             transfer_loss: frames.last().map_or(0.0, missing),
-            plastic_strain: self.mean(|p| M::plastic_strain(&p.state).0[0]),
+            plastic_strain: self.mean(|p| M::plastic_strain(&p.state).array()[0]),
             points: self.movers.len(),
             steps: self.step,
             memory_bytes: size * self.movers.len() + self.mass.len() * 9 * 8,

@@ -302,7 +302,7 @@ mod tests {
         let r = update(&m, &stretch(1.0, 1.0 + strain), &mut state);
         // uniaxial strain: deviator norm is 2 mu eps sqrt(2/3)
         let expected = 2.0 * m.moduli.shear * strain * (2.0f64 / 3.0).sqrt();
-        assert!((r.deviator.squared_norm().0[0].sqrt() / expected - 1.0).abs() < 1e-5);
+        assert!((r.deviator.squared_norm().array()[0].sqrt() / expected - 1.0).abs() < 1e-5);
         let pressure = m.moduli.volumetric_stress(1.0 + strain);
         assert!((pressure / (m.moduli.bulk * strain) - 1.0).abs() < 1e-5);
     }
@@ -315,14 +315,14 @@ mod tests {
             let b = 1.0 - 0.01 * f64::from(k);
             let f = stretch(b.powf(-0.5) * 1.001, b);
             let r = update(&m, &f, &mut state);
-            let mises = (1.5 * r.deviator.squared_norm().0[0]).sqrt();
+            let mises = (1.5 * r.deviator.squared_norm().array()[0]).sqrt();
             assert!(mises < 0.01 * (1.0 + 1e-12));
-            assert!((state.metric.determinant().0[0] - 1.0).abs() < 1e-12);
+            assert!((state.metric.determinant().array()[0] - 1.0).abs() < 1e-12);
             if k > 3 {
                 assert!((mises / 0.01 - 1.0).abs() < 1e-12, "{mises}");
             }
         }
-        assert!(state.strain.0[0] > 0.7);
+        assert!(state.strain.array()[0] > 0.7);
     }
 
     #[test]
@@ -334,9 +334,9 @@ mod tests {
             let b = 1.0 - 5e-5 * f64::from(k);
             work += update(&m, &stretch(b.powf(-0.5), b), &mut state)
                 .dissipation
-                .0[0];
+                .array()[0];
         }
-        assert!((work / (1e-4 * state.strain.0[0]) - 1.0).abs() < 1e-3);
+        assert!((work / (1e-4 * state.strain.array()[0]) - 1.0).abs() < 1e-3);
     }
 
     #[test]
@@ -350,12 +350,12 @@ mod tests {
             let b = 1.0 - 0.5 * f64::from(k) / f64::from(steps);
             let r = update(&m, &stretch(b.powf(-0.5), b), &mut state);
             // axial minus radial deviatoric stress times the rate of ln b
-            let mises = (1.5 * r.deviator.squared_norm().0[0]).sqrt();
+            let mises = (1.5 * r.deviator.squared_norm().array()[0]).sqrt();
             let before = 1.0 - 0.5 * f64::from(k - 1) / f64::from(steps);
             work += 0.5 * (old + mises) * (before / b).ln();
             old = mises;
-            dissipated += r.dissipation.0[0];
-            stored = 1.5 * m.moduli.shear * (r.mean.0[0] - 1.0);
+            dissipated += r.dissipation.array()[0];
+            stored = 1.5 * m.moduli.shear * (r.mean.array()[0] - 1.0);
         }
         assert!(
             ((stored + dissipated) / work - 1.0).abs() < 1e-4,

@@ -206,9 +206,8 @@ mod tests {
         let mut f = Solid::identity();
         for (i, row) in f.0.iter_mut().enumerate() {
             for (j, entry) in row.iter_mut().enumerate() {
-                for (k, x) in entry.0.iter_mut().enumerate() {
-                    *x += 0.2 * ((3 * i + 5 * j + 7 * k) as f64).sin();
-                }
+                let change = |k| 0.2 * ((3 * i + 5 * j + 7 * k) as f64).sin();
+                *entry += Lanes::new([0, 1, 2, 3].map(change));
             }
         }
         f
@@ -220,7 +219,7 @@ mod tests {
 
     fn distance(a: &SolidSymmetric, b: &SolidSymmetric) -> f64 {
         let d = a.zip(b, |a, b| a - b).squared_norm();
-        d.0.iter().fold(0.0f64, |m, x| m.max(x.sqrt()))
+        d.array().iter().fold(0.0f64, |m, x| m.max(x.sqrt()))
     }
 
     #[test]
@@ -239,7 +238,7 @@ mod tests {
         for (i, row) in tau.rows().iter().enumerate() {
             for (j, entry) in row.iter().enumerate() {
                 let product = dot(&p.0[i], &f.0[j]) - *entry * 2.0;
-                assert!(product.0.iter().all(|x| x.abs() < 1e-13), "{i} {j}");
+                assert!(product.array().iter().all(|x| x.abs() < 1e-13), "{i} {j}");
             }
         }
     }
@@ -255,7 +254,7 @@ mod tests {
             (metric().determinant(), turned.determinant()),
             (metric().trace(), turned.trace()),
         ] {
-            assert!((0..4).all(|k| (a.0[k] / b.0[k] - 1.0).abs() < 1e-13));
+            assert!((0..4).all(|k| (a.array()[k] / b.array()[k] - 1.0).abs() < 1e-13));
         }
     }
 }
