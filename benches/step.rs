@@ -1,12 +1,15 @@
-//! Cost of a time step of the impact solver, in point-steps a second: elastic and J2 bodies, degrees 1 to 3.
+//! Cost of a time step of the impact solver, in point-steps a second: elastic and J2 bodies, degrees 1 to 3;
+//! quadratic in three dimensions.
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use impactlaw::impact::kernel::Purpose;
+use impactlaw::impact::patch::Frictionless;
 use impactlaw::impact::setup::build;
+use impactlaw::impact::solid;
 use impactlaw::material::flow::PerfectlyPlastic;
 use impactlaw::material::stress::{Constitutive, Elastic, J2, Moduli};
-use impactlaw::plan::Grid;
-use impactlaw::space::Axisymmetric;
+use impactlaw::plan::{Geometry, Grid};
+use impactlaw::space::{Axisymmetric, Solid};
 use std::hint::black_box;
 
 fn grid(degree: usize) -> Grid {
@@ -43,6 +46,26 @@ fn sweep<M: Constitutive<Axisymmetric>, const P: usize, const N: usize>(
     group.finish();
 }
 
+/// The same in three dimensions: a quarter of the sphere, quadratic.
+fn solid_sweep<M: Constitutive<Solid>>(c: &mut Criterion, name: &str, material: M) {
+    let coarse = Grid {
+        fine: 0.04,
+        ..grid(2)
+    };
+    let mut model = solid::build(&coarse, Geometry::Quarter, material, Frictionless, 1e-9);
+    let nodes = model.mass.len();
+    let u: Vec<[f64; 3]> = (0..nodes)
+        .map(|n| [0.0, 0.0, 1e-3 * (0.1 * n as f64).sin()])
+        .collect();
+    let mut force = vec![[0.0; 3]; nodes];
+    let mut group = c.benchmark_group("sweep");
+    group.throughput(Throughput::Elements(model.points.count() as u64));
+    group.bench_function(name, |b| {
+        b.iter(|| model.points.sweep(Purpose::Step, black_box(&u), &mut force));
+    });
+    group.finish();
+}
+
 fn sweeps(c: &mut Criterion) {
     let moduli = Moduli::new(1.0, 0.35);
     let elastic = Elastic { moduli };
@@ -58,6 +81,7 @@ fn sweeps(c: &mut Criterion) {
     sweep::<_, 2, 9>(c, "quadratic J2", j2);
     sweep::<_, 3, 16>(c, "cubic J2", j2);
     sweep::<_, 2, 9>(c, "quadratic J2, all points yielding", soft);
+    solid_sweep(c, "quadratic J2, three dimensions", j2);
 }
 
 criterion_group!(benches, sweeps);

@@ -206,7 +206,7 @@ mod tests {
         let mut f = Solid::identity();
         for (i, row) in f.0.iter_mut().enumerate() {
             for (j, entry) in row.iter_mut().enumerate() {
-                let change = |k| 0.2 * ((3 * i + 5 * j + 7 * k) as f64).sin();
+                let change = |k: usize| 0.2 * ((3 * i + 5 * j + 7 * k) as f64).sin();
                 *entry += Lanes::new([0, 1, 2, 3].map(change));
             }
         }
