@@ -83,6 +83,10 @@ pub struct Summary {
     /// Largest imbalance of the energies over the incident kinetic energy.
     #[serde(deserialize_with = "number_or_null")]
     pub energy_closure: f64,
+    /// Share of the body that lost its strength because it was squeezed too thin to be stepped through; 0 but in impacts
+    /// that flatten the body.
+    #[serde(default, deserialize_with = "number_or_null")]
+    pub eroded_volume_ratio: f64,
     /// Material points.
     pub points: usize,
     /// Time steps.

@@ -73,6 +73,7 @@ fn impact(velocity: f64, f: f64, delta: f64, e: f64, residual: f64, time: f64) -
             equivalent_plastic_strain: 0.0,
             plastic_work_ratio: 0.0,
             energy_closure: 0.0,
+            eroded_volume_ratio: 0.0,
             points: 0,
             steps: 0,
             wall_s: 0.0,

@@ -131,6 +131,7 @@ fn impact<L: NormalLaw>(law: &L, velocity: f64, mass: f64) -> Impact {
             equivalent_plastic_strain: 0.0,
             plastic_work_ratio: 0.0,
             energy_closure: 0.0,
+            eroded_volume_ratio: 0.0,
             points: 0,
             steps: 0,
             wall_s: 0.0,

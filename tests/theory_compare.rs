@@ -47,6 +47,7 @@ fn summary(velocity: f64, figures: [f64; 5]) -> Summary {
         equivalent_plastic_strain: 0.0,
         plastic_work_ratio: 0.0,
         energy_closure: 0.0,
+        eroded_volume_ratio: 0.0,
         points: 0,
         steps: 0,
         wall_s: 0.0,

@@ -32,8 +32,12 @@ struct Cell {
     /// Blocks `first..last`.
     first: u32,
     last: u32,
+    /// First of its points in `cold`.
+    cold: u32,
     /// Reference volume.
     volume: f64,
+    /// Share of the stress that it still carries.
+    strength: f64,
 }
 
 /// Material points: blocks of four, grouped by cell, structure of arrays.
@@ -134,7 +138,9 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
             node: node as u32,
             first,
             last,
+            cold: self.cold.len() as u32,
             volume: points.iter().map(|p| p.volume).sum(),
+            strength: 1.0,
         });
         let blocks = (last - first) as usize;
         if self.scratch.len() < blocks {
@@ -196,6 +202,7 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
     pub fn view(&self, u: &[S::Vector]) -> Vec<PointView> {
         let mut all = Vec::with_capacity(self.cold.len());
         for cell in &self.cells {
+            let mut cold = self.cold[cell.cold as usize..].iter();
             for block in cell.first as usize..cell.last as usize {
                 let mut f = S::identity();
                 for (a, w) in self.weights[block].iter().enumerate() {
@@ -206,8 +213,9 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
                 let mises = (trial.deviator.squared_norm() * 1.5).sqrt() * j.recip();
                 let strain = M::plastic_strain(&self.states[block]);
                 for lane in 0..WIDTH {
-                    if self.volumes[block].array()[lane] > 0.0 {
-                        let (node, point) = &self.cold[all.len()];
+                    if self.volumes[block].array()[lane] > 0.0
+                        && let Some((node, point)) = cold.next()
+                    {
                         all.push(PointView {
                             position: self.displaced(*node as usize, point, u),
                             reference: point.position,
@@ -231,6 +239,45 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
             }
         }
         x
+    }
+
+    /// What `seen` makes of a sweep over each cell alone and of that cell's forces, in the order of the cells.
+    pub fn one_by_one<T>(
+        &mut self,
+        purpose: Purpose,
+        u: &[S::Vector],
+        mut seen: impl FnMut(&Sweep, &[S::Vector]) -> T,
+    ) -> Vec<T> {
+        let mut force = vec![S::Vector::default(); u.len()];
+        let cells = std::mem::take(&mut self.cells);
+        let mut answers = Vec::with_capacity(cells.len());
+        for cell in &cells {
+            self.cells = vec![*cell];
+            let sweep = self.sweep(purpose, u, &mut force);
+            answers.push(seen(&sweep, &force));
+        }
+        self.cells = cells;
+        answers
+    }
+
+    /// Let each cell carry the share `left` of what it carries now; a cell with less than `least` of its strength is taken
+    /// out (its mass stays on the nodes). Returns the volume that lost its strength in this.
+    pub fn weaken(&mut self, left: &[f64], least: f64) -> f64 {
+        let mut lost = 0.0;
+        let mut shares = left.iter();
+        self.cells.retain_mut(|cell| {
+            let before = cell.strength;
+            cell.strength *= shares.next().copied().unwrap_or(1.0);
+            let stays = cell.strength >= least;
+            lost += cell.volume * (before - if stays { cell.strength } else { 0.0 });
+            stays
+        });
+        lost
+    }
+
+    /// Reference volume of all points.
+    pub fn volume(&self) -> f64 {
+        self.volumes.iter().map(|v| v.sum()).sum()
     }
 
     /// Internal forces of the displacements `u`, written into `force`, with whatever vector instructions the machine has.
@@ -268,10 +315,14 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
             let mut local = [[Lanes::default(); 3]; N];
             for block in cell.first as usize..cell.last as usize {
                 let (f, j) = self.scratch[block - cell.first as usize];
-                let volume = self.volumes[block];
+                let volume = self.volumes[block] * cell.strength;
                 let recip_j = j.recip();
                 let answer = self.respond(purpose, block, &f, j, recip_j);
-                plastic += answer.dissipation * volume;
+                // a point turned inside out has no meaningful dissipation
+                plastic += j.zip(
+                    answer.dissipation * volume,
+                    |j, d| if j > 0.0 { d } else { 0.0 },
+                );
                 if purpose == Purpose::Audit {
                     let energy = (answer.mean - Lanes::splat(1.0)) * (1.5 * moduli.shear)
                         + j.map(|j| moduli.volumetric_energy(j)) * self.own_volume;
@@ -286,7 +337,8 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
             }
             if purpose == Purpose::Audit {
                 let share = 1.0 - self.own_volume;
-                total.elastic += share * cell.volume * moduli.volumetric_energy(mean);
+                total.elastic +=
+                    share * cell.strength * cell.volume * moduli.volumetric_energy(mean);
             }
             for (a, lanes) in local.iter().enumerate() {
                 let node = &mut force[cell.node as usize + self.offsets[a]];

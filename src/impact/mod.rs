@@ -10,6 +10,7 @@ pub mod body;
 mod choice;
 pub mod contact;
 pub mod deformation;
+mod erosion;
 pub mod homes;
 pub mod kernel;
 pub mod lattice;

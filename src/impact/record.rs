@@ -116,6 +116,8 @@ pub struct Record {
     pub sliding: Option<Sliding>,
     /// Largest energy imbalance over the incident kinetic energy.
     pub closure: f64,
+    /// Share of the body that lost its strength.
+    pub eroded: f64,
     /// Volume mean of the equivalent plastic strain.
     pub plastic_strain: f64,
     /// Material points.
@@ -250,6 +252,7 @@ impl Record {
             equivalent_plastic_strain: self.plastic_strain,
             plastic_work_ratio: last.plastic / incident,
             energy_closure: self.closure,
+            eroded_volume_ratio: self.eroded,
             points: self.points,
             steps: self.steps,
             wall_s,

@@ -2,7 +2,8 @@
 
 use crate::curve::Status;
 use crate::impact::contact::Wall;
-use crate::impact::kernel::{PointView, Purpose};
+use crate::impact::erosion::Erosion;
+use crate::impact::kernel::{PointView, Purpose, Sweep};
 use crate::impact::record::{Frame, Record, SectionView, Sliding, Snapshot};
 use crate::impact::remap::{Remap, StepEnd};
 use crate::impact::setup::Model;
@@ -56,6 +57,7 @@ where
     closure: f64,
     compressed: Option<Snapshot>,
     failure: Option<String>,
+    erosion: Erosion,
 }
 
 impl<'a, S, M, W, T, const N: usize> Run<'a, S, M, W, T, N>
@@ -105,6 +107,7 @@ where
             closure: 0.0,
             compressed: None,
             failure: None,
+            erosion: Erosion::new(plan.grid.remedies.least_step),
         }
     }
 
@@ -134,10 +137,10 @@ where
 
     /// Spread into a sheet that has no height left to fall and hardly falls: it will not come back.
     fn is_flat(&self) -> bool {
-        let tolerance = 0.5 * self.plan.tolerance;
+        let tolerance = self.plan.tolerance;
         let left = 1.0 + self.mean(&self.u, S::NORMAL);
         let sinking = -self.mean(&self.v, S::NORMAL) / self.speed;
-        left < tolerance && (0.0..tolerance).contains(&sinking)
+        left < tolerance && (0.0..0.5 * tolerance).contains(&sinking)
     }
 
     /// Stable time step and contact candidates of the present configuration.
@@ -160,15 +163,40 @@ where
             .refresh(self.transfer.travel(&self.u), 2.0 * self.speed, horizon);
     }
 
-    /// Stability limit of the present configuration.
+    /// Stable step of the present configuration; the last one where there is none to go on with.
     fn stable_step(&mut self) -> f64 {
-        let iterations = if self.step == 0 { 60 } else { 3 };
-        self.limit.estimate(
-            &mut self.model.points,
+        let model = &mut self.model;
+        let found = self.erosion.stable_step(
+            &mut self.limit,
+            &mut model.points,
             &self.u,
-            &self.model.recip_mass,
-            iterations,
-        )
+            &model.recip_mass,
+        );
+        found.unwrap_or_else(|reason| {
+            self.failure = Some(reason);
+            self.dt
+        })
+    }
+
+    /// Internal forces of this step. Where a point is turned inside out its cell is taken out, or the run stops.
+    fn forces(&mut self, purpose: Purpose) -> Sweep {
+        let points = &mut self.model.points;
+        let sweep = points.sweep(purpose, &self.u, &mut self.force);
+        if sweep.least_j > 0.0 {
+            return sweep;
+        }
+        if !self.erosion.is_on() {
+            let least = sweep.least_j;
+            self.failure = Some(format!("volume ratio J = {least:e} at a material point"));
+        } else if let Err(reason) = self.erosion.take_out_inverted(points, &self.u) {
+            self.failure = Some(reason);
+        }
+        // the states of the others have moved on to these displacements: they answer as before and dissipate no more
+        let again = points.sweep(purpose, &self.u, &mut self.force);
+        Sweep {
+            plastic: sweep.plastic + again.plastic,
+            ..again
+        }
     }
 
     /// One step of the symplectic scheme: forces at $u_n$, velocities to n + 1/2, contact, displacements to n + 1.
@@ -178,14 +206,8 @@ where
         } else {
             Purpose::Step
         };
-        let sweep = self.model.points.sweep(purpose, &self.u, &mut self.force);
+        let sweep = self.forces(purpose);
         self.plastic += sweep.plastic;
-        if !(sweep.least_j > 0.0) {
-            self.failure = Some(format!(
-                "volume ratio J = {:e} at a material point",
-                sweep.least_j
-            ));
-        }
         let dt = self.dt;
         for n in 0..self.u.len() {
             self.old[n] = self.v[n];
@@ -249,7 +271,7 @@ where
             .sum();
         let incident = self.frames[0].kinetic;
         let given = incident + self.contact_work + self.transferred;
-        let balance = kinetic + elastic + self.plastic - given;
+        let balance = kinetic + elastic + self.plastic + self.erosion.energy() - given;
         let closure = (balance / incident).abs();
         if !(closure <= UNSTABLE) {
             self.failure = Some(format!(
@@ -371,6 +393,7 @@ where
             speed: self.speed * self.plan.angle.cos(),
             sliding,
             closure: self.closure,
+            eroded: self.erosion.volume() / self.mass,
             plastic_strain: self.model.points.plastic_strain_volume() / self.mass,
             points: self.model.points.count(),
             steps: self.step,

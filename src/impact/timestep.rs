@@ -3,7 +3,7 @@
 //! The stiffness acts by finite difference of the elastic (frozen-state) internal force, so it is the tangent of the
 //! deformed body whatever the grid or material. Plastic flow only softens it.
 
-use crate::impact::kernel::{Points, Purpose};
+use crate::impact::kernel::{Points, Purpose, Sweep};
 use crate::material::stress::Constitutive;
 use crate::space::Space;
 
@@ -61,6 +61,33 @@ impl<S: Space> StabilityLimit<S> {
             squared = self.advance(recip_mass);
         }
         SAFETY * 2.0 / squared.sqrt()
+    }
+
+    /// Energy of each cell in the fastest mode found, over the largest of them.
+    pub fn energy_shares<M: Constitutive<S>, const N: usize>(
+        &mut self,
+        points: &mut Points<S, M, N>,
+        u: &[S::Vector],
+    ) -> Vec<f64> {
+        let scale = PROBE / largest_component(&self.mode);
+        for ((moved, mode), u) in self.moved.iter_mut().zip(&self.mode).zip(u) {
+            for (k, y) in moved.as_mut().iter_mut().enumerate() {
+                *y = u.as_ref()[k] + scale * mode.as_ref()[k];
+            }
+        }
+        let mode = &self.mode;
+        let power = |_: &Sweep, force: &[S::Vector]| -> f64 {
+            let product = |(f, m): (&S::Vector, &S::Vector)| -> f64 {
+                let pairs = f.as_ref().iter().zip(m.as_ref());
+                pairs.map(|(f, m)| f * m).sum()
+            };
+            force.iter().zip(mode).map(product).sum()
+        };
+        let rest = points.one_by_one(Purpose::Trial, u, power);
+        let moved = points.one_by_one(Purpose::Trial, &self.moved, power);
+        let energy: Vec<f64> = rest.iter().zip(&moved).map(|(a, b)| a - b).collect();
+        let most = energy.iter().fold(f64::MIN_POSITIVE, |a, e| a.max(*e));
+        energy.iter().map(|e| e / most).collect()
     }
 
     /// `mode <- M^-1 K mode`; returns the growth of its length in the mass metric, an estimate of $\omega^2$.

@@ -385,6 +385,7 @@ impl<'a, M: Constitutive<Axisymmetric>, const P: usize, const N: usize> Updated<
             // all that is missing is put down to the transfers; they are not audited one by one
             closure: 0.0,
             transfer_loss: frames.last().map_or(0.0, missing),
+            eroded: 0.0,
             plastic_strain: self.mean(|p| M::plastic_strain(&p.state).array()[0]),
             points: self.movers.len(),
             steps: self.step,

@@ -32,6 +32,8 @@ pub struct Remedies {
     /// Share of a cell that the body must fill for the cell to keep its own polynomials; what lies in emptier cells is
     /// carried by those of a fuller neighbour, so that no node hangs on a sliver of the body.
     pub least_fill: f64,
+    /// Share of the undeformed body's stable step below which the cells that ask for it are weakened (`impact::erosion`).
+    pub least_step: f64,
 }
 
 impl Remedies {
@@ -39,18 +41,33 @@ impl Remedies {
     pub const NONE: Remedies = Remedies {
         own_volume: 0.0,
         least_fill: 0.0,
+        least_step: 0.0,
     };
     /// For yielding bodies in three dimensions, where points near the contact edge turn inside out long before the body is
     /// flattened.
     pub const SOLID: Remedies = Remedies {
         own_volume: 0.1,
         least_fill: 0.0,
+        least_step: 0.0,
     };
-    /// For impacts that flatten the body.
-    pub const LARGE: Remedies = Remedies {
-        own_volume: 0.1,
-        least_fill: 0.4,
-    };
+    /// For impacts that flatten the body, to a relative tolerance on F*, delta* and e.
+    ///
+    /// A fiftieth of the first step instead of a hundredth halves the time and changes delta* by 0.04 % at
+    /// $\rho V^2/Y = 3$ and by 0.3 % at 6.
+    #[must_use]
+    pub fn large(tolerance: f64) -> Remedies {
+        Remedies {
+            own_volume: 0.1,
+            least_fill: 0.4,
+            least_step: tolerance.min(0.02),
+        }
+    }
+
+    /// Whether the body is expected to be flattened.
+    #[must_use]
+    pub fn is_large(&self) -> bool {
+        self.least_step > 0.0
+    }
 }
 
 /// Breakpoints of a direction: uniform cells of size `fine` over `[0, fine_to]`, then each at most `growth` times the
