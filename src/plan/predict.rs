@@ -1,0 +1,131 @@
+//! Prediction: points, steps and seconds of a run, from its plan alone.
+//!
+//! Measured with `impactlaw study cases/study-480.toml` on one idle core of a 2-core machine; another machine scales all
+//! seconds alike.
+
+use super::{Geometry, Plan, graded, severity};
+use crate::material::Material;
+use crate::scheme::{Layout, Reference, TimeStep, Transfer};
+
+/// Point-steps a second and core of quadratic splines in the axisymmetric section, contact and outputs included.
+const THROUGHPUT: f64 = 3.9e7;
+/// The same in three dimensions.
+const SOLID_THROUGHPUT: f64 = 8e6;
+/// Sweeps over the points that a refresh of the stable step costs.
+const REFRESH_SWEEPS: f64 = 4.0;
+/// Share of the time step of the undeformed body that remains on average, $\rho V^2/Y$ against steps over those that the
+/// undeformed body would take, for E/Y of 160 and more: thin cells shorten the step until erosion holds it, and a sheet
+/// that spreads fast is flat sooner.
+const SQUEEZE: [(f64, f64); 14] = [
+    (0.06, 1.3),
+    (0.128, 1.9),
+    (0.256, 3.4),
+    (0.512, 9.8),
+    (0.8, 20.5),
+    (1.15, 41.0),
+    (2.0, 51.0),
+    (3.2, 59.0),
+    (4.1, 75.0),
+    (6.4, 105.0),
+    (9.2, 122.0),
+    (12.8, 70.0),
+    (25.6, 41.0),
+    (51.2, 30.0),
+];
+/// Cells a contact radius with which [`SQUEEZE`] was measured, at $\rho V^2/Y \ge 1$.
+const MEASURED_CELLS: f64 = 28.0;
+
+/// The plan with points, steps and seconds predicted from its grid and scheme.
+#[must_use]
+pub fn with_prediction(mut plan: Plan, material: &Material) -> Plan {
+    let dt = time_step(&plan, material);
+    let duration = plan.estimate.contact_time + plan.ring_time;
+    let steps = duration / dt;
+    let squeezed = steps * squeeze(&plan, material);
+    let speed = plan.velocity / (material.young_modulus / material.density).sqrt();
+    let covered = if plan.grid.remedies.is_large() {
+        0.1
+    } else {
+        0.5
+    };
+    let interval = (covered * plan.grid.fine / (speed * dt) * squeezed / steps).clamp(1.0, 50.0);
+    plan.points = points(&plan);
+    plan.steps = squeezed as u64;
+    plan.seconds =
+        plan.points as f64 * squeezed * (1.0 + REFRESH_SWEEPS / interval) / throughput(&plan);
+    plan
+}
+
+/// Point-steps a second of a plan's degree and scheme.
+fn throughput(plan: &Plan) -> f64 {
+    if plan.geometry != Geometry::Axisymmetric {
+        return SOLID_THROUGHPUT;
+    }
+    let degree = [0.75, 1.0, 0.4][plan.grid.degree.clamp(1, 3) - 1];
+    let transfer = match plan.scheme.transfer {
+        Transfer::Persistent => 1.0,
+        _ => 0.65,
+    };
+    let reference = match plan.scheme.reference {
+        Reference::Initial => 1.0,
+        Reference::Present => 0.5,
+    };
+    THROUGHPUT * degree * transfer * reference
+}
+
+/// Material points that the grid will hold.
+fn points(plan: &Plan) -> usize {
+    let grid = &plan.grid;
+    let count =
+        |length: f64, to: f64| graded(length, grid.fine, to, grid.growth, grid.coarse).len();
+    let (across, up) = (
+        count(1.0, grid.fine_width) as f64,
+        count(2.0, grid.fine_depth) as f64,
+    );
+    let side = grid.points_per_direction as f64;
+    let points = match (plan.geometry, plan.scheme.layout) {
+        (Geometry::Quarter, _) => 0.6 * across.powi(2) * up * side.powi(3),
+        (Geometry::Half, _) => 1.2 * across.powi(2) * up * side.powi(3),
+        (_, Layout::Fitted) => 0.8 * across * up * side.powi(2),
+        (_, Layout::Lattice(per_diameter)) => std::f64::consts::PI / 8.0 * per_diameter.powi(2),
+    };
+    points as usize
+}
+
+/// Time step of the undeformed body.
+fn time_step(plan: &Plan, material: &Material) -> f64 {
+    let nu = material.poisson_ratio;
+    let speed = ((1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu))).sqrt();
+    match plan.scheme.time_step {
+        TimeStep::Stable => 0.87 * plan.grid.dt_share * plan.grid.fine / speed,
+        TimeStep::Fixed(dt) => dt,
+    }
+}
+
+/// Steps over those that the undeformed body would take.
+fn squeeze(plan: &Plan, material: &Material) -> f64 {
+    if !plan.grid.remedies.is_large() || plan.scheme.time_step != TimeStep::Stable {
+        return 1.0;
+    }
+    let severity = severity(material, plan.velocity * plan.angle.cos());
+    let soft = material
+        .flow
+        .map_or(1.0, |f| material.young_modulus / f.yield_strength / 160.0);
+    let cells = plan.estimate.contact_radius / plan.grid.fine;
+    // finer cells are squeezed further before erosion stops it
+    let finer = (cells / (MEASURED_CELLS * severity.min(1.0).powf(0.4))).powf(1.5);
+    let most = 1.5 / plan.grid.remedies.least_step;
+    (interpolated(severity) * finer * soft.min(1.0).powf(0.35))
+        .min(most.max(interpolated(severity)))
+        .max(1.0)
+}
+
+/// [`SQUEEZE`] between its entries, straight in the logarithms.
+fn interpolated(severity: f64) -> f64 {
+    let k = SQUEEZE
+        .partition_point(|(q, _)| *q < severity)
+        .clamp(1, SQUEEZE.len() - 1);
+    let ((q0, f0), (q1, f1)) = (SQUEEZE[k - 1], SQUEEZE[k]);
+    let share = ((severity / q0).ln() / (q1 / q0).ln()).clamp(0.0, 1.0);
+    f0 * (f1 / f0).powf(share)
+}
