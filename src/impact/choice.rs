@@ -23,8 +23,8 @@ pub(super) fn run_plastic(
     unit: f64,
     plan: &Plan,
     speed: f64,
-) -> Record {
-    fn with<F: FlowStress>(moduli: Moduli, flow: F, plan: &Plan, speed: f64) -> Record {
+) -> Vec<Record> {
+    fn with<F: FlowStress>(moduli: Moduli, flow: F, plan: &Plan, speed: f64) -> Vec<Record> {
         run_geometry(J2 { moduli, flow }, plan, speed)
     }
     let strength = flow.yield_strength / unit;
@@ -41,7 +41,7 @@ pub(super) fn run_geometry<M: Constitutive<Axisymmetric> + Constitutive<Solid>>(
     material: M,
     plan: &Plan,
     speed: f64,
-) -> Record {
+) -> Vec<Record> {
     let tolerance = CONTACT_TOLERANCE * speed * plan.angle.cos();
     let (grid, geometry) = (&plan.grid, plan.geometry);
     if geometry == Geometry::Axisymmetric {
@@ -57,13 +57,13 @@ pub(super) fn run_geometry<M: Constitutive<Axisymmetric> + Constitutive<Solid>>(
 }
 
 /// The spline degree that the plan calls for.
-fn run_degree<M: Constitutive<Axisymmetric>>(material: M, plan: &Plan, speed: f64) -> Record {
+fn run_degree<M: Constitutive<Axisymmetric>>(material: M, plan: &Plan, speed: f64) -> Vec<Record> {
     let (grid, layout) = (&plan.grid, plan.scheme.layout);
     if plan.scheme.reference == Reference::Present {
         return match grid.degree {
-            1 => Updated::<M, 1, 4>::new(plan, material, speed).finish(),
-            2 => Updated::<M, 2, 9>::new(plan, material, speed).finish(),
-            _ => Updated::<M, 3, 16>::new(plan, material, speed).finish(),
+            1 => vec![Updated::<M, 1, 4>::new(plan, material, speed).finish()],
+            2 => vec![Updated::<M, 2, 9>::new(plan, material, speed).finish()],
+            _ => vec![Updated::<M, 3, 16>::new(plan, material, speed).finish()],
         };
     }
     let tolerance = CONTACT_TOLERANCE * speed;
@@ -91,7 +91,7 @@ fn run_transfer<M, W, const N: usize>(
     model: Model<Axisymmetric, M, W, N>,
     plan: &Plan,
     speed: f64,
-) -> Record
+) -> Vec<Record>
 where
     M: Constitutive<Axisymmetric>,
     W: Wall<Axisymmetric>,

@@ -24,6 +24,7 @@ pub mod solid;
 pub mod timestep;
 pub mod updated;
 
+use self::record::Record;
 use crate::curve::{Impact, ParticleMap};
 use crate::material::Material;
 use crate::material::stress::{Elastic, Moduli};
@@ -52,19 +53,48 @@ pub struct Simulated {
 /// Always returns what the run has; [`crate::curve::Status`] says whether it finished.
 #[must_use]
 pub fn simulate(material: &Material, radius: f64, plan: &Plan) -> Simulated {
+    let mut all = simulate_repeated(material, radius, plan, 1);
+    all.swap_remove(0)
+}
+
+/// Simulate `impacts` impacts of one particle, each at the planned speed, each beginning with the shape, the hardening and
+/// the stresses that the one before left; its vibration is taken to have died out. At least one is returned, fewer than
+/// asked for after one that did not end well. The whole wall time is booked to the first.
+///
+/// With updated Lagrangian schemes only the first is run.
+#[must_use]
+pub fn simulate_repeated(
+    material: &Material,
+    radius: f64,
+    plan: &Plan,
+    impacts: usize,
+) -> Vec<Simulated> {
+    let plan = Plan {
+        impacts,
+        ..plan.clone()
+    };
     let moduli = Moduli::new(1.0, material.poisson_ratio);
     let started = std::time::Instant::now();
     let speed = plan.velocity / (material.young_modulus / material.density).sqrt();
-    let record = match material.flow.filter(|_| plan.plastic) {
-        None => choice::run_geometry(Elastic { moduli }, plan, speed),
-        Some(flow) => choice::run_plastic(moduli, &flow, material.young_modulus, plan, speed),
+    let records = match material.flow.filter(|_| plan.plastic) {
+        None => choice::run_geometry(Elastic { moduli }, &plan, speed),
+        Some(flow) => {
+            let unit = material.young_modulus;
+            choice::run_plastic(moduli, &flow, unit, &plan, speed)
+        }
     };
-    let seconds = started.elapsed().as_secs_f64();
-    Simulated {
-        impact: record.impact(material, radius, plan.velocity, seconds),
+    let mut seconds = started.elapsed().as_secs_f64();
+    let finished = |record: Record| Simulated {
+        impact: record.impact(
+            material,
+            radius,
+            plan.velocity,
+            std::mem::take(&mut seconds),
+        ),
         compressed: record.compressed.map(material, radius),
         rebound: record.rebound.map(material, radius),
         memory_bytes: record.memory_bytes,
         transfer_loss: record.transfer_loss,
-    }
+    };
+    records.into_iter().map(finished).collect()
 }

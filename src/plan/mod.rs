@@ -71,6 +71,8 @@ pub struct Plan {
     pub grid: Grid,
     /// Method; another than the default only to be compared.
     pub scheme: Scheme,
+    /// Impacts of the same particle, one after the other.
+    pub impacts: usize,
     /// Time after loss of contact over which the residual vibration is averaged, R/c0.
     pub ring_time: f64,
     /// Time at which an impact without rebound is given up, R/c0.
@@ -144,6 +146,7 @@ pub fn plan(case: &Case, velocity: f64) -> Plan {
         tolerance: case.tolerance,
         grid,
         scheme: Scheme::default(),
+        impacts: 1,
         ring_time,
         longest_time: 6.0 * estimate.contact_time + 4.0 * ring_time,
         points: 0,

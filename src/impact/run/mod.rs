@@ -1,15 +1,17 @@
 //! Run: one impact in progress, step by step.
 
+mod observe;
+
 use crate::curve::Status;
 use crate::impact::contact::Wall;
 use crate::impact::erosion::Erosion;
-use crate::impact::kernel::{PointView, Purpose, Sweep};
-use crate::impact::record::{Frame, Record, SectionView, Sliding, Snapshot};
+use crate::impact::kernel::{Purpose, Sweep};
+use crate::impact::record::{Frame, Record, Snapshot};
 use crate::impact::remap::{Remap, StepEnd};
 use crate::impact::setup::Model;
 use crate::impact::timestep::StabilityLimit;
 use crate::material::stress::Constitutive;
-use crate::plan::{Geometry, Plan, Remedies};
+use crate::plan::{Plan, Remedies};
 use crate::scheme::TimeStep;
 use crate::space::Space;
 
@@ -23,6 +25,19 @@ const REFRESH: f64 = 50.0;
 const COVERED: f64 = 0.5;
 /// The same where large deformation squeezes single cells much faster than the body.
 const COVERED_LARGE: f64 = 0.1;
+
+/// Where an impact began: of a first one all zero.
+#[derive(Debug, Clone, Copy, Default)]
+struct Start {
+    /// Mean displacement along the normal.
+    height: f64,
+    /// Displacement of the material centre along the normal.
+    centre: f64,
+    /// Elastic energy of the stresses left by the impact before.
+    elastic: f64,
+    /// Elastic energy booked to erosion by then.
+    eroded: f64,
+}
 
 /// A run in progress.
 pub(super) struct Run<'a, S, M, W, T, const N: usize>
@@ -58,6 +73,7 @@ where
     compressed: Option<Snapshot>,
     failure: Option<String>,
     erosion: Erosion,
+    start: Start,
 }
 
 impl<'a, S, M, W, T, const N: usize> Run<'a, S, M, W, T, N>
@@ -70,21 +86,10 @@ where
     pub(super) fn new(model: Model<S, M, W, N>, transfer: T, plan: &'a Plan, speed: f64) -> Self {
         let nodes = model.mass.len();
         let mass = model.mass.iter().sum::<f64>();
-        let mut incident = S::Vector::default();
-        incident.as_mut()[S::NORMAL] = -speed * plan.angle.cos();
-        if let Some(axis) = S::SLIDING {
-            incident.as_mut()[axis] = speed * plan.angle.sin();
-        }
-        let kinetic: f64 = incident.as_ref().iter().map(|v| 0.5 * mass * v * v).sum();
-        let first = Frame {
-            kinetic,
-            height: 2.0,
-            ..Frame::default()
-        };
-        Run {
+        let mut run = Run {
             limit: StabilityLimit::new(nodes),
             u: vec![S::Vector::default(); nodes],
-            v: vec![incident; nodes],
+            v: vec![incident::<S>(plan, speed); nodes],
             old: vec![S::Vector::default(); nodes],
             force: vec![S::Vector::default(); nodes],
             model,
@@ -103,16 +108,33 @@ where
             contact_radius: 0.0,
             contact_end: 0.0,
             mass,
-            frames: vec![first],
+            frames: Vec::new(),
             closure: 0.0,
             compressed: None,
             failure: None,
             erosion: Erosion::new(plan.grid.remedies.least_step),
+            start: Start::default(),
+        };
+        run.frames.push(run.first_frame());
+        run
+    }
+
+    /// Run the impacts of the plan one after the other; those after one that did not end well are left out.
+    pub(super) fn finish(mut self) -> Vec<Record> {
+        let mut records = Vec::with_capacity(self.plan.impacts);
+        loop {
+            self.rebound();
+            records.push(self.take_record());
+            let ended_well = records.last().is_some_and(|r| r.status == Status::Ok);
+            if records.len() >= self.plan.impacts || !ended_well || self.is_flat() {
+                return records;
+            }
+            self.start_again();
         }
     }
 
     /// Step until the particle has rung out after its rebound, or the run must stop.
-    pub(super) fn finish(mut self) -> Record {
+    fn rebound(&mut self) {
         let interval = self.plan.estimate.contact_time / OUTPUTS;
         let mut next_output = interval;
         while self.failure.is_none() && !self.is_over() {
@@ -125,7 +147,52 @@ where
             }
             self.advance(output);
         }
-        self.into_record()
+    }
+
+    /// The particle as its rebound left it, without the vibration, back on its way to the wall, which it just touches.
+    fn start_again(&mut self) {
+        let outline = self.model.contact.outline(&self.u);
+        let lowest = outline.iter().fold(f64::INFINITY, |a, (_, z)| a.min(*z));
+        for u in &mut self.u {
+            u.as_mut()[S::NORMAL] -= lowest;
+        }
+        let incident = self.incident();
+        self.v.fill(incident);
+        let elastic = (self.model.points)
+            .sweep(Purpose::Audit, &self.u, &mut self.force)
+            .elastic;
+        self.start = Start {
+            height: self.mean(&self.u, S::NORMAL),
+            centre: self.along(&self.model.markers[1]),
+            elastic,
+            eroded: self.erosion.energy(),
+        };
+        let [south, _, north] = &self.model.markers;
+        let first = Frame {
+            height: self.height(north, south),
+            elastic,
+            ..self.first_frame()
+        };
+        self.frames = vec![first];
+        (self.time, self.step, self.next_refresh) = (0.0, 0, 0);
+        (self.impulse, self.tangential, self.contact_work) = (0.0, 0.0, 0.0);
+        (self.plastic, self.transferred, self.closure) = (0.0, 0.0, 0.0);
+        (self.contact_radius, self.contact_end) = (0.0, 0.0);
+    }
+
+    /// Velocity before the impact.
+    fn incident(&self) -> S::Vector {
+        incident::<S>(self.plan, self.speed)
+    }
+
+    /// The moment of first contact.
+    fn first_frame(&self) -> Frame {
+        let squared: f64 = self.incident().as_ref().iter().map(|v| v * v).sum();
+        Frame {
+            kinetic: 0.5 * self.mass * squared,
+            height: 2.0,
+            ..Frame::default()
+        }
     }
 
     /// Rebounded and rung out, flat, or out of time.
@@ -257,152 +324,14 @@ where
             .sum();
         sum / self.mass
     }
+}
 
-    /// Keep a frame at time n (`impulse` of the step that is under way belongs half to each side).
-    fn record(&mut self, elastic: f64, impulse: f64) {
-        let kinetic: f64 = (self.old.iter().zip(&self.v).zip(&self.model.mass))
-            .map(|((a, b), m)| {
-                let mut product = 0.0;
-                for (a, b) in a.as_ref().iter().zip(b.as_ref()) {
-                    product += a * b;
-                }
-                0.5 * m * product
-            })
-            .sum();
-        let incident = self.frames[0].kinetic;
-        let given = incident + self.contact_work + self.transferred;
-        let balance = kinetic + elastic + self.plastic + self.erosion.energy() - given;
-        let closure = (balance / incident).abs();
-        if !(closure <= UNSTABLE) {
-            self.failure = Some(format!(
-                "energy imbalance {closure:e} of the incident energy"
-            ));
-        }
-        self.closure = self.closure.max(closure);
-        let along = |marker: &[(usize, f64)]| -> f64 {
-            marker
-                .iter()
-                .map(|(n, w)| w * self.u[*n].as_ref()[S::NORMAL])
-                .sum()
-        };
-        let [south, centre, north] = &self.model.markers;
-        let frame = Frame {
-            time: self.time,
-            displacement: -self.mean(&self.u, S::NORMAL),
-            centre_displacement: -along(centre),
-            impulse: self.impulse - 0.5 * impulse,
-            contact_radius: self.contact_radius,
-            kinetic,
-            elastic,
-            plastic: self.plastic,
-            height: self.height(north, south),
-        };
-        self.contact_radius = 0.0;
-        self.frames.push(frame);
-        if self.compressed.is_none() && self.mean(&self.v, S::NORMAL) >= 0.0 {
-            self.compressed = Some(self.snapshot());
-        }
+/// Velocity before an impact at `speed`.
+fn incident<S: Space>(plan: &Plan, speed: f64) -> S::Vector {
+    let mut incident = S::Vector::default();
+    incident.as_mut()[S::NORMAL] = -speed * plan.angle.cos();
+    if let Some(axis) = S::SLIDING {
+        incident.as_mut()[axis] = speed * plan.angle.sin();
     }
-
-    /// Distance of the poles.
-    fn height(&self, north: &[(usize, f64)], south: &[(usize, f64)]) -> f64 {
-        let mut squared = 0.0;
-        for axis in 0..S::Vector::default().as_ref().len() {
-            let along = |marker: &[(usize, f64)]| -> f64 {
-                marker
-                    .iter()
-                    .map(|(n, w)| w * self.u[*n].as_ref()[axis])
-                    .sum()
-            };
-            let rest = if axis == S::NORMAL { 2.0 } else { 0.0 };
-            let distance = rest + along(north) - along(south);
-            squared += distance * distance;
-        }
-        squared.sqrt()
-    }
-
-    /// Motion along the wall so far, where there can be any.
-    fn sliding(&self) -> Option<Sliding> {
-        let axis = S::SLIDING.filter(|_| self.plan.geometry == Geometry::Half)?;
-        let centre: Vec<f64> = (0..S::Vector::default().as_ref().len())
-            .map(|k| self.mean(&self.u, k) + self.mean(&self.model.places, k))
-            .collect();
-        let mut momentum = 0.0;
-        for (n, mass) in self.model.mass.iter().enumerate() {
-            let mut arm = self.u[n];
-            for (k, x) in arm.as_mut().iter_mut().enumerate() {
-                *x += self.model.places[n].as_ref()[k] - centre[k];
-            }
-            momentum += mass * S::moment(&arm, &self.v[n]);
-        }
-        Some(Sliding {
-            incident: self.speed * self.plan.angle.sin(),
-            exit: self.mean(&self.v, axis),
-            spin: momentum / (0.4 * self.mass),
-            impulse_ratio: -self.tangential / self.impulse,
-        })
-    }
-
-    /// The particle as it is now.
-    fn snapshot(&self) -> Snapshot {
-        let model = &self.model;
-        let seen = |p: PointView| {
-            let volume = p.volume / model.copies;
-            let depth = self.plan.grid.fine;
-            S::section(&p.position, &p.reference, volume, depth).map(|place| SectionView {
-                place,
-                plastic_strain: p.plastic_strain,
-                von_mises: p.von_mises,
-            })
-        };
-        Snapshot {
-            points: model
-                .points
-                .view(&self.u)
-                .into_iter()
-                .filter_map(seen)
-                .collect(),
-            outline: self.model.contact.outline(&self.u),
-        }
-    }
-
-    /// Memory of points and nodes.
-    fn bytes(&self) -> usize {
-        let fields = [&self.u, &self.v, &self.old, &self.force];
-        let nodes: usize = fields.iter().map(|f| std::mem::size_of_val(&f[..])).sum();
-        self.model.points.bytes() + nodes + self.transfer.bytes()
-    }
-
-    fn into_record(self) -> Record {
-        let memory_bytes = self.bytes();
-        let exit_speed = if self.is_flat() {
-            0.0
-        } else {
-            self.mean(&self.v, S::NORMAL)
-        };
-        let rebound = self.snapshot();
-        let sliding = self.sliding();
-        let status = match self.failure {
-            Some(reason) => Status::Failed(format!("step {}: {reason}", self.step)),
-            None if self.time > self.plan.longest_time => Status::NoRebound,
-            None => Status::Ok,
-        };
-        Record {
-            contact_end: self.contact_end,
-            exit_speed,
-            speed: self.speed * self.plan.angle.cos(),
-            sliding,
-            closure: self.closure,
-            eroded: self.erosion.volume() / self.mass,
-            plastic_strain: self.model.points.plastic_strain_volume() / self.mass,
-            points: self.model.points.count(),
-            steps: self.step,
-            memory_bytes,
-            transfer_loss: -self.transferred / self.frames[0].kinetic,
-            frames: self.frames,
-            compressed: self.compressed.unwrap_or_default(),
-            rebound,
-            status,
-        }
-    }
+    incident
 }

@@ -1,0 +1,172 @@
+//! Observation: what is kept of a run at its outputs, and what it leaves in the end.
+
+use super::{Run, UNSTABLE};
+use crate::curve::Status;
+use crate::impact::contact::Wall;
+use crate::impact::kernel::PointView;
+use crate::impact::record::{Frame, Record, SectionView, Sliding, Snapshot};
+use crate::impact::remap::Remap;
+use crate::material::stress::Constitutive;
+use crate::plan::Geometry;
+use crate::space::Space;
+
+impl<S, M, W, T, const N: usize> Run<'_, S, M, W, T, N>
+where
+    S: Space,
+    M: Constitutive<S>,
+    W: Wall<S>,
+    T: Remap<S::Vector>,
+{
+    /// Keep a frame at time n (`impulse` of the step that is under way belongs half to each side).
+    pub(super) fn record(&mut self, elastic: f64, impulse: f64) {
+        let kinetic: f64 = (self.old.iter().zip(&self.v).zip(&self.model.mass))
+            .map(|((a, b), m)| {
+                let mut product = 0.0;
+                for (a, b) in a.as_ref().iter().zip(b.as_ref()) {
+                    product += a * b;
+                }
+                0.5 * m * product
+            })
+            .sum();
+        let incident = self.frames[0].kinetic;
+        let given = incident + self.start.elastic + self.contact_work + self.transferred;
+        let balance =
+            kinetic + elastic + self.plastic + self.erosion.energy() - self.start.eroded - given;
+        let closure = (balance / incident).abs();
+        if !(closure <= UNSTABLE) {
+            self.failure = Some(format!(
+                "energy imbalance {closure:e} of the incident energy"
+            ));
+        }
+        self.closure = self.closure.max(closure);
+        let [south, centre, north] = &self.model.markers;
+        let frame = Frame {
+            time: self.time,
+            displacement: self.start.height - self.mean(&self.u, S::NORMAL),
+            centre_displacement: self.start.centre - self.along(centre),
+            impulse: self.impulse - 0.5 * impulse,
+            contact_radius: self.contact_radius,
+            kinetic,
+            elastic,
+            plastic: self.plastic,
+            height: self.height(north, south),
+        };
+        self.contact_radius = 0.0;
+        self.frames.push(frame);
+        if self.compressed.is_none() && self.mean(&self.v, S::NORMAL) >= 0.0 {
+            self.compressed = Some(self.snapshot());
+        }
+    }
+
+    /// Displacement of a marker along the normal.
+    pub(super) fn along(&self, marker: &[(usize, f64)]) -> f64 {
+        marker
+            .iter()
+            .map(|(n, w)| w * self.u[*n].as_ref()[S::NORMAL])
+            .sum()
+    }
+
+    /// Distance of the poles.
+    pub(super) fn height(&self, north: &[(usize, f64)], south: &[(usize, f64)]) -> f64 {
+        let mut squared = 0.0;
+        for axis in 0..S::Vector::default().as_ref().len() {
+            let along = |marker: &[(usize, f64)]| -> f64 {
+                marker
+                    .iter()
+                    .map(|(n, w)| w * self.u[*n].as_ref()[axis])
+                    .sum()
+            };
+            let rest = if axis == S::NORMAL { 2.0 } else { 0.0 };
+            let distance = rest + along(north) - along(south);
+            squared += distance * distance;
+        }
+        squared.sqrt()
+    }
+
+    /// Motion along the wall so far, where there can be any.
+    fn sliding(&self) -> Option<Sliding> {
+        let axis = S::SLIDING.filter(|_| self.plan.geometry == Geometry::Half)?;
+        let centre: Vec<f64> = (0..S::Vector::default().as_ref().len())
+            .map(|k| self.mean(&self.u, k) + self.mean(&self.model.places, k))
+            .collect();
+        let mut momentum = 0.0;
+        for (n, mass) in self.model.mass.iter().enumerate() {
+            let mut arm = self.u[n];
+            for (k, x) in arm.as_mut().iter_mut().enumerate() {
+                *x += self.model.places[n].as_ref()[k] - centre[k];
+            }
+            momentum += mass * S::moment(&arm, &self.v[n]);
+        }
+        Some(Sliding {
+            incident: self.speed * self.plan.angle.sin(),
+            exit: self.mean(&self.v, axis),
+            spin: momentum / (0.4 * self.mass),
+            impulse_ratio: -self.tangential / self.impulse,
+        })
+    }
+
+    /// The particle as it is now.
+    fn snapshot(&self) -> Snapshot {
+        let model = &self.model;
+        let seen = |p: PointView| {
+            let volume = p.volume / model.copies;
+            let depth = self.plan.grid.fine;
+            S::section(&p.position, &p.reference, volume, depth).map(|place| SectionView {
+                place,
+                plastic_strain: p.plastic_strain,
+                von_mises: p.von_mises,
+            })
+        };
+        Snapshot {
+            points: model
+                .points
+                .view(&self.u)
+                .into_iter()
+                .filter_map(seen)
+                .collect(),
+            outline: self.model.contact.outline(&self.u),
+        }
+    }
+
+    /// Memory of points and nodes.
+    fn bytes(&self) -> usize {
+        let fields = [&self.u, &self.v, &self.old, &self.force];
+        let nodes: usize = fields.iter().map(|f| std::mem::size_of_val(&f[..])).sum();
+        self.model.points.bytes() + nodes + self.transfer.bytes()
+    }
+
+    /// All that the impact leaves; the run keeps its body.
+    pub(super) fn take_record(&mut self) -> Record {
+        let memory_bytes = self.bytes();
+        let exit_speed = if self.is_flat() {
+            0.0
+        } else {
+            self.mean(&self.v, S::NORMAL)
+        };
+        let transfer_loss = -self.transferred / self.frames[0].kinetic;
+        let rebound = self.snapshot();
+        let sliding = self.sliding();
+        let status = match &self.failure {
+            Some(reason) => Status::Failed(format!("step {}: {reason}", self.step)),
+            None if self.time > self.plan.longest_time => Status::NoRebound,
+            None => Status::Ok,
+        };
+        Record {
+            contact_end: self.contact_end,
+            exit_speed,
+            speed: self.speed * self.plan.angle.cos(),
+            sliding,
+            closure: self.closure,
+            eroded: self.erosion.volume() / self.mass,
+            plastic_strain: self.model.points.plastic_strain_volume() / self.mass,
+            points: self.model.points.count(),
+            steps: self.step,
+            memory_bytes,
+            transfer_loss,
+            frames: std::mem::take(&mut self.frames),
+            compressed: self.compressed.take().unwrap_or_default(),
+            rebound,
+            status,
+        }
+    }
+}
