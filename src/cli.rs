@@ -167,6 +167,10 @@ pub struct StudyArgs {
     /// Output folder; by default `out/` and the study's name.
     #[arg(short, long)]
     pub out: Option<PathBuf>,
+    /// Also run this many cases, drawn over the whole range, with cells of half the size, and hold the change against the
+    /// tolerance.
+    #[arg(long, default_value_t = 0)]
+    pub refine: usize,
 }
 
 /// Arguments of `cost`.

@@ -6,6 +6,8 @@ use crate::curve::Summary;
 use crate::document::Document;
 use crate::material::{Flow, Material};
 use crate::unit::{Density, Length, Pressure, Quantity, Velocity};
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64;
 use serde::Deserialize;
 use std::path::Path;
 
@@ -163,6 +165,18 @@ fn within(
     list.iter().enumerate().map(entry).collect()
 }
 
+/// `count` of the `total` runs of a study, drawn so that they lie all over a sorted list of them: one from each of `count`
+/// equal stretches. The same for every call.
+#[must_use]
+pub fn drawn(total: usize, count: usize) -> Vec<usize> {
+    let mut random = Pcg64::seed_from_u64(0);
+    let count = count.min(total);
+    let stretch = |k: usize| k * total / count;
+    (0..count)
+        .map(|k| random.random_range(stretch(k)..stretch(k + 1)))
+        .collect()
+}
+
 /// Name of the run a case stands for: E/Y, rho V^2/E, nu and the tolerance, to nine digits.
 ///
 /// Two cases with equal groups are the same run, scaled.
@@ -227,6 +241,15 @@ tolerance = 0.02
         assert_eq!(study.cases[0].velocities, [10.0]);
         assert_eq!(study.cases[1].velocities, [20.0]);
         assert_eq!(study.cases[1].material, study.cases[0].material);
+    }
+
+    #[test]
+    fn drawn_runs_lie_all_over_the_range_and_are_always_the_same() {
+        let picked = drawn(384, 20);
+        assert_eq!(picked, drawn(384, 20));
+        assert!(picked.windows(2).all(|p| p[0] < p[1]));
+        assert!((0..20).all(|k| picked[k] / 19 >= k && picked[k] < (k + 1) * 384 / 20));
+        assert_eq!(drawn(3, 20), [0, 1, 2]);
     }
 
     #[test]

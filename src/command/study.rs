@@ -1,16 +1,21 @@
 //! Study command: runs a grid of cases in parallel, equal dimensionless groups once, and resumes where it was stopped.
 
 use super::{Context, Verdict, output_folder, print};
+use crate::case::Case;
 use crate::cli::StudyArgs;
 use crate::curve::{Impact, Status, Summary};
-use crate::files::write_atomic;
+use crate::files::{write_atomic, write_rows};
 use crate::impact::simulate;
-use crate::plan::plan;
-use crate::study::{Study, group, scaled};
+use crate::plan::{plan, severity, with_cells};
+use crate::study::{Study, drawn, group, scaled};
 use crate::{Error, Result};
 use rayon::prelude::*;
+use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+
+/// Figures of every group by its name, with the number of the case that stands for it.
+type Runs = BTreeMap<String, (usize, Summary)>;
 
 /// Run what is not there yet, then write `results.csv`; [`Verdict::Missed`] when a case did not end with status ok.
 ///
@@ -41,19 +46,114 @@ pub fn run(args: &StudyArgs, context: &Context) -> Result<Verdict> {
         runs.len(),
         path.display()
     ))?;
-    Ok(if ok == rows.len() {
+    let met = match args.refine {
+        0 => true,
+        count => refinement(&study, &runs, &out, count, context)?,
+    };
+    Ok(if ok == rows.len() && met {
         Verdict::Met
     } else {
         Verdict::Missed
     })
 }
 
-/// Figures of every group, by its name, with the number of the case that stands for it; finished ones are read.
-fn runs(
+/// Run `count` of the runs again with cells of half the size, write `refinement.csv`, and say whether every change is below
+/// the tolerance.
+fn refinement(
     study: &Study,
+    runs: &Runs,
     out: &Path,
+    count: usize,
     context: &Context,
-) -> Result<BTreeMap<String, (usize, Summary)>> {
+) -> Result<bool> {
+    let mut all: Vec<(f64, usize, &Summary)> = runs
+        .values()
+        .map(|(i, summary)| (severity_of(&study.cases[*i]), *i, summary))
+        .collect();
+    all.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    let picked = drawn(all.len(), count);
+    let bar = context.progress(picked.len() as u64, "refinement");
+    let mut rows: Vec<Refined> = picked
+        .par_iter()
+        .with_max_len(1)
+        .rev()
+        .map(|&k| {
+            let (severity, i, summary) = all[k];
+            let case = &study.cases[i];
+            let halved = with_cells(plan(case, case.velocities[0]), 0.5, &case.material);
+            let fine = simulate(&case.material, case.radius, &halved)
+                .impact
+                .summary;
+            bar.inc(1);
+            Refined::new(case, severity, summary, &fine)
+        })
+        .collect();
+    bar.finish_and_clear();
+    rows.reverse();
+    let path = out.join("refinement.csv");
+    write_rows(&path, &context.provenance(&study.hash), &rows)?;
+    let met = rows.iter().filter(|r| r.met).count();
+    print(&format!(
+        "{met} of {} runs change by less than the tolerance with cells of half the size -> {}\n",
+        rows.len(),
+        path.display()
+    ))?;
+    Ok(met == rows.len())
+}
+
+/// One row of `refinement.csv`: changes from the planned cells to cells of half the size.
+#[derive(Debug, Serialize)]
+struct Refined {
+    young_over_yield: f64,
+    #[serde(rename = "rho_V2_over_Y")]
+    severity: f64,
+    /// Relative.
+    max_force_change: f64,
+    /// Relative.
+    max_displacement_change: f64,
+    /// Absolute: e is a share of the impact speed.
+    restitution_change: f64,
+    restitution: f64,
+    wall_s: f64,
+    refined_wall_s: f64,
+    refined_status: String,
+    met: bool,
+}
+
+impl Refined {
+    fn new(case: &Case, severity: f64, planned: &Summary, fine: &Summary) -> Self {
+        let m = &case.material;
+        let force = planned.max_force_n / fine.max_force_n - 1.0;
+        let displacement = planned.max_displacement_m / fine.max_displacement_m - 1.0;
+        let restitution = planned.restitution - fine.restitution;
+        let worst = force.abs().max(displacement.abs()).max(restitution.abs());
+        let both_ok = planned.status == Status::Ok && fine.status == Status::Ok;
+        Refined {
+            young_over_yield: m.flow.map_or(0.0, |f| m.young_modulus / f.yield_strength),
+            severity,
+            max_force_change: force,
+            max_displacement_change: displacement,
+            restitution_change: restitution,
+            restitution: planned.restitution,
+            wall_s: planned.wall_s,
+            refined_wall_s: fine.wall_s,
+            refined_status: match &fine.status {
+                Status::Ok => "ok".to_owned(),
+                Status::NoRebound => "no rebound".to_owned(),
+                Status::Failed(reason) => reason.clone(),
+            },
+            met: both_ok && worst < case.tolerance,
+        }
+    }
+}
+
+/// $\rho V^2/Y$ of a case of a study.
+fn severity_of(case: &Case) -> f64 {
+    severity(&case.material, case.velocities[0])
+}
+
+/// Figures of every group, by its name, with the number of the case that stands for it; finished ones are read.
+fn runs(study: &Study, out: &Path, context: &Context) -> Result<Runs> {
     let mut groups: BTreeMap<String, usize> = BTreeMap::new();
     for (i, case) in study.cases.iter().enumerate() {
         groups.entry(group(case)).or_insert(i);

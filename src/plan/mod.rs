@@ -13,7 +13,7 @@ mod grid;
 mod predict;
 
 pub use grid::{Grid, Remedies, graded};
-pub use predict::with_prediction;
+pub use predict::{with_cells, with_prediction};
 
 /// Part of the sphere that is simulated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -220,7 +220,8 @@ fn solid_grid(estimate: &Estimate, case: &Case) -> Grid {
 const LARGE_FROM: f64 = 0.1;
 
 /// Dynamic pressure over strength, $\rho V^2/Y$; 0 for an elastic body.
-fn severity(material: &Material, velocity: f64) -> f64 {
+#[must_use]
+pub fn severity(material: &Material, velocity: f64) -> f64 {
     let pressure = material.density * velocity * velocity;
     material.flow.map_or(0.0, |f| pressure / f.yield_strength)
 }

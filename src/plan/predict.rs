@@ -56,6 +56,14 @@ pub fn with_prediction(mut plan: Plan, material: &Material) -> Plan {
     plan
 }
 
+/// The plan with all cells `share` times as large.
+#[must_use]
+pub fn with_cells(mut plan: Plan, share: f64, material: &Material) -> Plan {
+    plan.grid.fine *= share;
+    plan.grid.coarse *= share;
+    with_prediction(plan, material)
+}
+
 /// Point-steps a second of a plan's degree and scheme.
 fn throughput(plan: &Plan) -> f64 {
     if plan.geometry != Geometry::Axisymmetric {
