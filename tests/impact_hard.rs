@@ -124,7 +124,8 @@ fn a_modulus_of_twenty_thousand_yield_strengths_loses_more_than_one_of_two_thous
 #[test]
 fn poisson_ratios_of_0_and_of_almost_a_half_follow_hertz() {
     for nu in [0.0, 0.49] {
-        let body = Body::elastic(nu, 0.003);
+        // slow: the sphere differs from a half-space by some sqrt(delta/R)
+        let body = Body::elastic(nu, 2e-4);
         let s = body.simulated().summary;
         let (displacement, force) = body.hertz();
         assert!(
