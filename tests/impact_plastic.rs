@@ -236,3 +236,25 @@ fn thread_count_does_not_change_a_bit() {
     };
     assert!(in_pool(1) == in_pool(2));
 }
+
+#[test]
+fn restitution_falls_smoothly_with_the_speed_from_below_the_yield_speed_on() {
+    let case = case("thesis-4-4.toml");
+    let limit = (case.material)
+        .yield_point(case.radius, impactlaw::material::YIELD_PRESSURE_RATIO)
+        .unwrap()
+        .velocity;
+    let e: Vec<f64> = (-1..14)
+        .map(|k| {
+            run(&case, 1.01 * limit * 1.25f64.powi(k))
+                .summary
+                .restitution
+        })
+        .collect();
+    assert!(e[0] > 0.995 && e[14] < 0.8, "{e:?}");
+    for three in e.windows(3) {
+        assert!(three[1] < three[0] + 1e-3, "{e:?}");
+        let bend = three[0] - 2.0 * three[1] + three[2];
+        assert!(bend.abs() < 0.01, "{bend} in {e:?}");
+    }
+}
