@@ -94,6 +94,9 @@ pub struct ImpactArgs {
     /// Output folder (default: `out/<case name>`).
     #[arg(short, long)]
     pub out: Option<PathBuf>,
+    /// How often a run under way is kept, so that the same command goes on after an interruption.
+    #[arg(long, default_value = "30 s")]
+    pub checkpoint: String,
 }
 
 /// Arguments of `fit`.

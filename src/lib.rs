@@ -34,6 +34,7 @@ pub mod report;
 pub mod scheme;
 pub mod space;
 pub mod study;
+pub mod tape;
 pub mod theory;
 pub mod unit;
 

@@ -4,9 +4,10 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// The order; a room may use rooms of earlier lines.
-const ORDER: [&[&str]; 16] = [
+const ORDER: [&[&str]; 17] = [
     &["error"],
     &["files", "unit", "lanes"],
+    &["tape"],
     &["document", "scheme", "space"],
     &["material"],
     &["case", "contact", "curve"],

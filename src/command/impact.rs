@@ -4,11 +4,19 @@ use crate::case::Case;
 use crate::cli::ImpactArgs;
 use crate::command::{Context, Verdict, impact_folder, output_folder};
 use crate::curve::Status;
-use crate::impact::{Simulated, simulate};
+use crate::impact::{Simulated, simulate_kept};
 use crate::plan::plan;
+use crate::tape::Checkpoint;
+use crate::unit::{self, Time};
 use crate::{Error, Result};
 use rayon::prelude::*;
 use std::path::Path;
+use std::time::Duration;
+
+/// How often a run under way is kept where nothing else is asked for.
+pub const CHECKPOINT: Duration = Duration::from_secs(30);
+/// The file it is kept in, beside the results to come; gone when they are there.
+pub const CHECKPOINT_FILE: &str = "checkpoint.bin";
 
 /// Simulate and write all impacts of the case.
 ///
@@ -16,16 +24,32 @@ use std::path::Path;
 /// Those of reading the case and writing the results; [`Error::Impact`] when a run did not finish (its files are written all the same).
 pub fn run(args: &ImpactArgs, context: &Context) -> Result<Verdict> {
     let case = Case::read(&args.case)?.with_velocities(&args.velocity)?;
+    let interval = interval(&args.checkpoint)?;
     let out = output_folder(args.out.as_deref(), &case.name)?;
-    impacts(&case, &out, context)?;
+    impacts(&case, &out, interval, context)?;
     Ok(Verdict::Met)
+}
+
+/// Time between two checkpoints.
+fn interval(text: &str) -> Result<Duration> {
+    let seconds = unit::argument::<Time>("--checkpoint", text)?;
+    Duration::try_from_secs_f64(seconds).map_err(|_| Error::Argument {
+        argument: "--checkpoint".to_owned(),
+        found: text.to_owned(),
+        allowed: "must be a time of 0 s or more".to_owned(),
+    })
 }
 
 /// Simulate every speed of `case`, longest first, and write each as soon as it is there; returned in order of speed.
 ///
 /// # Errors
 /// As [`run`].
-pub fn impacts(case: &Case, out: &Path, context: &Context) -> Result<Vec<Simulated>> {
+pub fn impacts(
+    case: &Case,
+    out: &Path,
+    interval: Duration,
+    context: &Context,
+) -> Result<Vec<Simulated>> {
     let mut plans: Vec<_> = case.velocities.iter().map(|v| plan(case, *v)).collect();
     plans.sort_by(|a, b| b.seconds.total_cmp(&a.seconds));
     let bar = context.progress(plans.len() as u64, "impacts");
@@ -34,8 +58,9 @@ pub fn impacts(case: &Case, out: &Path, context: &Context) -> Result<Vec<Simulat
         .par_iter()
         .with_max_len(1)
         .map(|plan| {
-            let done = simulate(&case.material, case.radius, plan);
             let folder = impact_folder(out, plan.velocity);
+            let checkpoint = Checkpoint::new(&folder.join(CHECKPOINT_FILE), interval);
+            let done = simulate_kept(&case.material, case.radius, plan, &checkpoint);
             done.impact.write(&folder, &provenance)?;
             let map = |name: &str| folder.join(name);
             done.compressed

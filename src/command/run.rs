@@ -65,7 +65,7 @@ fn stages(
 ) -> Result<Results> {
     let provenance = context.provenance(&case.hash);
     let plans = case.velocities.iter().map(|v| plan(case, *v)).collect();
-    let simulated = impact::impacts(case, out, context)?;
+    let simulated = impact::impacts(case, out, impact::CHECKPOINT, context)?;
     let impacts: Vec<Impact> = simulated.iter().map(|one| one.impact.clone()).collect();
     let law = LawFile::of(&fit(case, &impacts)?, case, PROGRAM);
     law.write(&out.join("law.toml"))?;

@@ -1,13 +1,15 @@
 //! Study command: runs a grid of cases in parallel, equal dimensionless groups once, and resumes where it was stopped.
 
+use super::impact::{CHECKPOINT, CHECKPOINT_FILE};
 use super::{Context, Verdict, output_folder, print};
 use crate::case::Case;
 use crate::cli::StudyArgs;
 use crate::curve::{Impact, Status, Summary};
 use crate::files::{write_atomic, write_rows};
-use crate::impact::simulate;
+use crate::impact::{simulate, simulate_kept};
 use crate::plan::{plan, severity, with_cells};
 use crate::study::{Study, drawn, group, scaled};
+use crate::tape::Checkpoint;
 use crate::{Error, Result};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -180,8 +182,9 @@ fn runs(study: &Study, out: &Path, context: &Context) -> Result<Runs> {
                 Impact::read(&folder)?.summary
             } else {
                 let case = &study.cases[i];
-                let simulated =
-                    simulate(&case.material, case.radius, &plan(case, case.velocities[0]));
+                let plan = plan(case, case.velocities[0]);
+                let checkpoint = Checkpoint::new(&folder.join(CHECKPOINT_FILE), CHECKPOINT);
+                let simulated = simulate_kept(&case.material, case.radius, &plan, &checkpoint);
                 simulated.impact.write(&folder, &provenance)?;
                 simulated.impact.summary
             };

@@ -15,49 +15,62 @@ use crate::material::stress::{Constitutive, J2, Moduli};
 use crate::plan::{Geometry, Plan};
 use crate::scheme::{Reference, Transfer};
 use crate::space::{Axisymmetric, Solid};
+use crate::tape::{Checkpoint, Keeper};
+
+/// What is to be run.
+pub(super) struct Job<'a> {
+    /// The plan.
+    pub plan: &'a Plan,
+    /// Impact speed in run units.
+    pub speed: f64,
+    /// Where the run is kept while it is under way, and what tells it from others.
+    pub checkpoint: Option<(&'a Checkpoint, String)>,
+}
+
+impl Job<'_> {
+    fn keeper(&self) -> Option<Keeper<'_>> {
+        let (checkpoint, description) = self.checkpoint.as_ref()?;
+        Some(Keeper::new(checkpoint, description))
+    }
+}
 
 /// The flow stress that the material calls for.
-pub(super) fn run_plastic(
-    moduli: Moduli,
-    flow: &Flow,
-    unit: f64,
-    plan: &Plan,
-    speed: f64,
-) -> Vec<Record> {
-    fn with<F: FlowStress>(moduli: Moduli, flow: F, plan: &Plan, speed: f64) -> Vec<Record> {
-        run_geometry(J2 { moduli, flow }, plan, speed)
+pub(super) fn run_plastic(moduli: Moduli, flow: &Flow, unit: f64, job: &Job) -> Vec<Record> {
+    fn with<F: FlowStress>(moduli: Moduli, flow: F, job: &Job) -> Vec<Record> {
+        run_geometry(J2 { moduli, flow }, job)
     }
     let strength = flow.yield_strength / unit;
     if flow.hardening_modulus > 0.0 {
         let modulus = flow.hardening_modulus / unit;
-        with(moduli, LinearHardening { strength, modulus }, plan, speed)
+        with(moduli, LinearHardening { strength, modulus }, job)
     } else {
-        with(moduli, PerfectlyPlastic { strength }, plan, speed)
+        with(moduli, PerfectlyPlastic { strength }, job)
     }
 }
 
 /// The space, and in three dimensions the friction, that the plan calls for.
 pub(super) fn run_geometry<M: Constitutive<Axisymmetric> + Constitutive<Solid>>(
     material: M,
-    plan: &Plan,
-    speed: f64,
+    job: &Job,
 ) -> Vec<Record> {
+    let &Job { plan, speed, .. } = job;
     let tolerance = CONTACT_TOLERANCE * speed * plan.angle.cos();
     let (grid, geometry) = (&plan.grid, plan.geometry);
     if geometry == Geometry::Axisymmetric {
-        run_degree(material, plan, speed)
+        run_degree(material, job)
     } else if plan.friction > 0.0 {
         let coefficient = plan.friction;
         let model = solid::build(grid, geometry, material, Coulomb { coefficient }, tolerance);
-        Run::new(model, (), plan, speed).finish()
+        Run::new(model, (), plan, speed).finish(job.keeper())
     } else {
         let model = solid::build(grid, geometry, material, Frictionless, tolerance);
-        Run::new(model, (), plan, speed).finish()
+        Run::new(model, (), plan, speed).finish(job.keeper())
     }
 }
 
 /// The spline degree that the plan calls for.
-fn run_degree<M: Constitutive<Axisymmetric>>(material: M, plan: &Plan, speed: f64) -> Vec<Record> {
+fn run_degree<M: Constitutive<Axisymmetric>>(material: M, job: &Job) -> Vec<Record> {
+    let &Job { plan, speed, .. } = job;
     let (grid, layout) = (&plan.grid, plan.scheme.layout);
     if plan.scheme.reference == Reference::Present {
         return match grid.degree {
@@ -70,46 +83,40 @@ fn run_degree<M: Constitutive<Axisymmetric>>(material: M, plan: &Plan, speed: f6
     match grid.degree {
         1 => run_transfer(
             setup::build::<M, 1, 4>(grid, layout, material, tolerance),
-            plan,
-            speed,
+            job,
         ),
         2 => run_transfer(
             setup::build::<M, 2, 9>(grid, layout, material, tolerance),
-            plan,
-            speed,
+            job,
         ),
         _ => run_transfer(
             setup::build::<M, 3, 16>(grid, layout, material, tolerance),
-            plan,
-            speed,
+            job,
         ),
     }
 }
 
 /// The transfer of velocity that the plan calls for.
-fn run_transfer<M, W, const N: usize>(
-    model: Model<Axisymmetric, M, W, N>,
-    plan: &Plan,
-    speed: f64,
-) -> Vec<Record>
+fn run_transfer<M, W, const N: usize>(model: Model<Axisymmetric, M, W, N>, job: &Job) -> Vec<Record>
 where
     M: Constitutive<Axisymmetric>,
     W: Wall<Axisymmetric>,
 {
+    let &Job { plan, speed, .. } = job;
     let points = model.points.unpacked();
     let carriers = || {
         let start = [0.0, -speed];
         Carriers::new(points, model.points.offsets(), model.mass.len(), start)
     };
     match plan.scheme.transfer {
-        Transfer::Persistent => Run::new(model, (), plan, speed).finish(),
+        Transfer::Persistent => Run::new(model, (), plan, speed).finish(job.keeper()),
         Transfer::Blend(flip) => {
             let carriers = carriers();
-            Run::new(model, Blend { carriers, flip }, plan, speed).finish()
+            Run::new(model, Blend { carriers, flip }, plan, speed).finish(job.keeper())
         }
         Transfer::Apic => {
             let apic = Apic::new(carriers(), points, &model.places);
-            Run::new(model, apic, plan, speed).finish()
+            Run::new(model, apic, plan, speed).finish(job.keeper())
         }
     }
 }

@@ -11,6 +11,7 @@
 
 use crate::impact::banded::Banded;
 use crate::space::Space;
+use crate::tape::{Keep, Tape, keep_fields};
 
 /// Active-set iterations before Gauss-Seidel takes over.
 const MOST_CHANGES: usize = 12;
@@ -48,6 +49,22 @@ struct ContactPoint<const N: usize> {
     active: bool,
 }
 
+keep_fields!(impl [const N: usize] ContactPoint<N>: impulse, active);
+
+impl<S: Space, const N: usize> Keep for Contact<S, N> {
+    fn save(&self, tape: &mut Tape) {
+        self.points.as_slice().save(tape);
+        self.candidates.save(tape);
+        self.time.save(tape);
+    }
+
+    fn load(&mut self, tape: &mut Tape) -> Option<()> {
+        self.points.as_mut_slice().load(tape)?;
+        self.candidates.load(tape)?;
+        self.time.load(tape)
+    }
+}
+
 /// What one step of contact did.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Touch {
@@ -64,7 +81,7 @@ pub struct Touch {
 }
 
 /// What a run asks of its contact with the wall.
-pub trait Wall<S: Space>: Clone {
+pub trait Wall<S: Space>: Clone + Keep {
     /// Points that could touch within `horizon`, if nothing moves faster than `speed`; call now and then.
     fn refresh(&mut self, u: &[S::Vector], speed: f64, horizon: f64);
     /// Solve one step: `old` are the velocities before the forces, `v` the free velocities, corrected in place.

@@ -12,6 +12,7 @@ use crate::impact::kernel::{Points, Purpose};
 use crate::impact::timestep::StabilityLimit;
 use crate::material::stress::Constitutive;
 use crate::space::Space;
+use crate::tape::keep_fields;
 
 /// Share of the stress that is left after each weakening: the stable step of the cell doubles.
 const WEAKENED: f64 = 0.25;
@@ -39,6 +40,8 @@ pub struct Erosion {
     /// Elastic energy that went with the stress.
     energy: f64,
 }
+
+keep_fields!(Erosion: first, volume, energy);
 
 impl Erosion {
     /// Nothing eroded yet; `least`: shortest stable step accepted over that of the undeformed body, 0 to erode nothing.

@@ -10,6 +10,7 @@
 use crate::lanes::{Lanes, WIDTH};
 use crate::material::stress::{Constitutive, Response};
 use crate::space::{Space, Symmetric};
+use crate::tape::{Keep, Tape};
 
 /// A material point before it is packed.
 #[derive(Debug, Clone, Copy)]
@@ -91,6 +92,27 @@ pub enum Purpose {
     Audit,
     /// Elastic forces with the states frozen.
     Trial,
+}
+
+impl<S: Space, M: Constitutive<S>, const N: usize> Keep for Points<S, M, N> {
+    fn save(&self, tape: &mut Tape) {
+        self.states.as_slice().save(tape);
+        let left: Vec<(u32, f64)> = self.cells.iter().map(|c| (c.first, c.strength)).collect();
+        left.save(tape);
+    }
+
+    fn load(&mut self, tape: &mut Tape) -> Option<()> {
+        self.states.as_mut_slice().load(tape)?;
+        let mut left: Vec<(u32, f64)> = Vec::new();
+        left.load(tape)?;
+        let mut left = left.into_iter().peekable();
+        self.cells.retain_mut(|cell| {
+            let stays = left.next_if(|(first, _)| *first == cell.first);
+            cell.strength = stays.map_or(0.0, |(_, strength)| strength);
+            stays.is_some()
+        });
+        left.next().is_none().then_some(())
+    }
 }
 
 impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {

@@ -24,11 +24,13 @@ pub mod solid;
 pub mod timestep;
 pub mod updated;
 
+use self::choice::Job;
 use self::record::Record;
 use crate::curve::{Impact, ParticleMap};
 use crate::material::Material;
 use crate::material::stress::{Elastic, Moduli};
 use crate::plan::Plan;
+use crate::tape::Checkpoint;
 
 /// Contact violation that counts as solved, in impact speeds.
 const CONTACT_TOLERANCE: f64 = 1e-7;
@@ -53,8 +55,19 @@ pub struct Simulated {
 /// Always returns what the run has; [`crate::curve::Status`] says whether it finished.
 #[must_use]
 pub fn simulate(material: &Material, radius: f64, plan: &Plan) -> Simulated {
-    let mut all = simulate_repeated(material, radius, plan, 1);
-    all.swap_remove(0)
+    first(simulated(material, radius, plan, None))
+}
+
+/// [`simulate`], kept in a file while it is under way: called again after an interruption, it goes on from there and ends
+/// with the same bits. Schemes with an updated Lagrangian reference start anew.
+#[must_use]
+pub fn simulate_kept(
+    material: &Material,
+    radius: f64,
+    plan: &Plan,
+    checkpoint: &Checkpoint,
+) -> Simulated {
+    first(simulated(material, radius, plan, Some(checkpoint)))
 }
 
 /// Simulate `impacts` impacts of one particle, each at the planned speed, each beginning with the shape, the hardening and
@@ -73,28 +86,42 @@ pub fn simulate_repeated(
         impacts,
         ..plan.clone()
     };
+    simulated(material, radius, &plan, None)
+}
+
+/// The first impact: there always is one.
+fn first(mut all: Vec<Simulated>) -> Simulated {
+    all.swap_remove(0)
+}
+
+/// All impacts of a plan.
+fn simulated(
+    material: &Material,
+    radius: f64,
+    plan: &Plan,
+    checkpoint: Option<&Checkpoint>,
+) -> Vec<Simulated> {
     let moduli = Moduli::new(1.0, material.poisson_ratio);
     let started = std::time::Instant::now();
-    let speed = plan.velocity / (material.young_modulus / material.density).sqrt();
+    let job = Job {
+        plan,
+        speed: plan.velocity / (material.young_modulus / material.density).sqrt(),
+        checkpoint: checkpoint.map(|c| (c, format!("{material:?} {plan:?}"))),
+    };
     let records = match material.flow.filter(|_| plan.plastic) {
-        None => choice::run_geometry(Elastic { moduli }, &plan, speed),
-        Some(flow) => {
-            let unit = material.young_modulus;
-            choice::run_plastic(moduli, &flow, unit, &plan, speed)
-        }
+        None => choice::run_geometry(Elastic { moduli }, &job),
+        Some(flow) => choice::run_plastic(moduli, &flow, material.young_modulus, &job),
     };
     let mut seconds = started.elapsed().as_secs_f64();
-    let finished = |record: Record| Simulated {
-        impact: record.impact(
-            material,
-            radius,
-            plan.velocity,
-            std::mem::take(&mut seconds),
-        ),
-        compressed: record.compressed.map(material, radius),
-        rebound: record.rebound.map(material, radius),
-        memory_bytes: record.memory_bytes,
-        transfer_loss: record.transfer_loss,
+    let finished = |record: Record| {
+        let wall = record.seconds_before + std::mem::take(&mut seconds);
+        Simulated {
+            impact: record.impact(material, radius, plan.velocity, wall),
+            compressed: record.compressed.map(material, radius),
+            rebound: record.rebound.map(material, radius),
+            memory_bytes: record.memory_bytes,
+            transfer_loss: record.transfer_loss,
+        }
     };
     records.into_iter().map(finished).collect()
 }

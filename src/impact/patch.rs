@@ -13,6 +13,7 @@
 
 use crate::impact::contact::{Touch, Wall};
 use crate::space::Solid;
+use crate::tape::keep_fields;
 
 /// Sweeps after which the remaining violation is accepted and reported.
 const MOST_SWEEPS: usize = 200;
@@ -76,6 +77,8 @@ pub struct Patch<F: Friction, const N: usize> {
     tolerance: f64,
     sweeps: u64,
 }
+
+keep_fields!(impl [F: Friction, const N: usize] Patch<F, N>: free, impulses, remembered, candidates, time, sweeps);
 
 impl<F: Friction, const N: usize> Patch<F, N> {
     /// No points yet; `memory` is the time over which friction follows the normal force, `tolerance` the speed below which a

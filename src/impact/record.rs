@@ -4,6 +4,7 @@ use crate::curve::{
     Curve, Impact, MapPoint, Part, ParticleMap, Sample, Status, Summary, Tangential,
 };
 use crate::material::Material;
+use crate::tape::keep_fields;
 
 /// One output in run units (R, R/c0, E R^2, E R^3).
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -101,6 +102,10 @@ impl Snapshot {
     }
 }
 
+keep_fields!(Frame: time, displacement, centre_displacement, impulse, contact_radius, kinetic, elastic, plastic, height);
+keep_fields!(SectionView: place, plastic_strain, von_mises);
+keep_fields!(Snapshot: points, outline);
+
 /// All that a finished (or stopped) run knows.
 #[derive(Debug, Clone)]
 pub struct Record {
@@ -124,6 +129,8 @@ pub struct Record {
     pub points: usize,
     /// Steps.
     pub steps: u64,
+    /// Wall time before the run was taken up from a checkpoint, s.
+    pub seconds_before: f64,
     /// Memory of points and nodes, bytes.
     pub memory_bytes: usize,
     /// Energy lost in transfers between points and grid over the incident kinetic energy.

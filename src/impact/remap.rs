@@ -4,6 +4,7 @@
 //! Nodal displacements grow by the mapped velocity, as in the thesis (equations 3-6 to 3-11).
 
 use crate::impact::kernel::Point;
+use crate::tape::{Keep, Tape, keep_fields};
 
 /// A step that has ended, before velocities are mapped; nodal fields.
 #[derive(Debug, Clone, Copy)]
@@ -21,7 +22,7 @@ pub struct StepEnd<'a, V> {
 }
 
 /// What happens to the nodal velocity between two steps.
-pub trait Remap<V> {
+pub trait Remap<V>: Clone + Keep {
     /// Map the velocity `v` through the points; returns the energy that the body gains by it (negative: a loss).
     fn remap(&mut self, step: StepEnd<V>, v: &mut [V]) -> f64;
     /// Displacement of the points as a nodal field, from which contact takes its gaps: that of the nodes, unless points
@@ -53,6 +54,8 @@ struct Carrier<const N: usize> {
     mass: f64,
     velocity: [f64; 3],
 }
+
+keep_fields!(impl [const N: usize] Carrier<N>: velocity);
 
 /// The points of a run and their way to the nodes.
 #[derive(Debug, Clone)]
@@ -105,6 +108,21 @@ impl<V: Copy + Default + AsRef<[f64]> + AsMut<[f64]>, const N: usize> Carriers<V
     }
 }
 
+impl<V: Keep, const N: usize> Keep for Carriers<V, N> {
+    fn save(&self, tape: &mut Tape) {
+        self.carriers.as_slice().save(tape);
+        self.travel.as_slice().save(tape);
+    }
+
+    fn load(&mut self, tape: &mut Tape) -> Option<()> {
+        self.carriers.as_mut_slice().load(tape)?;
+        self.travel.as_mut_slice().load(tape)
+    }
+}
+
+keep_fields!(impl [V: Keep, const N: usize] Blend<V, N>: carriers);
+keep_fields!(impl [V: Keep, const N: usize] Apic<V, N>: carriers);
+
 /// FLIP, PIC, or between them: $v_p \leftarrow \alpha (v_p + \sum_i N_{ip} \Delta v_i) + (1 - \alpha) \sum_i N_{ip} v_i$.
 #[derive(Debug, Clone)]
 pub struct Blend<V, const N: usize> {
@@ -114,7 +132,9 @@ pub struct Blend<V, const N: usize> {
     pub flip: f64,
 }
 
-impl<V: Copy + Default + AsRef<[f64]> + AsMut<[f64]>, const N: usize> Remap<V> for Blend<V, N> {
+impl<V: Copy + Default + Keep + AsRef<[f64]> + AsMut<[f64]>, const N: usize> Remap<V>
+    for Blend<V, N>
+{
     fn remap(&mut self, step: StepEnd<V>, v: &mut [V]) -> f64 {
         let Carriers {
             carriers,
@@ -210,7 +230,9 @@ fn affine<const N: usize>(
     })
 }
 
-impl<V: Copy + Default + AsRef<[f64]> + AsMut<[f64]>, const N: usize> Remap<V> for Apic<V, N> {
+impl<V: Copy + Default + Keep + AsRef<[f64]> + AsMut<[f64]>, const N: usize> Remap<V>
+    for Apic<V, N>
+{
     fn remap(&mut self, step: StepEnd<V>, v: &mut [V]) -> f64 {
         let Carriers {
             carriers,

@@ -9,6 +9,7 @@ use crate::material::stress::Constitutive;
 use crate::plan::{Grid, graded};
 use crate::scheme::Layout;
 use crate::space::{Axisymmetric, Space};
+use crate::tape::keep_fields;
 use std::f64::consts::PI;
 
 /// Distance of surface points over the size of their cell. Halving it from 1 takes most of the staircase out of F as the
@@ -33,6 +34,8 @@ pub struct Model<S: Space, M: Constitutive<S>, W: Wall<S>, const N: usize> {
     /// South pole, centre and north pole of the sphere as interpolations of the nodes.
     pub markers: [Vec<(usize, f64)>; 3],
 }
+
+keep_fields!(impl [S: Space, M: Constitutive<S>, W: Wall<S>, const N: usize] Model<S, M, W, N>: points, contact);
 
 /// Model of the axisymmetric section.
 pub type AxisymmetricModel<M, const N: usize> = Model<Axisymmetric, M, Contact<Axisymmetric, N>, N>;

@@ -6,6 +6,7 @@
 use crate::impact::kernel::{Points, Purpose, Sweep};
 use crate::material::stress::Constitutive;
 use crate::space::Space;
+use crate::tape::keep_fields;
 
 /// Share of the stability limit that is used: power iteration approaches the largest frequency from below.
 const SAFETY: f64 = 0.85;
@@ -20,6 +21,8 @@ pub struct StabilityLimit<S: Space> {
     moved: Vec<S::Vector>,
     force: Vec<S::Vector>,
 }
+
+keep_fields!(impl [S: Space] StabilityLimit<S>: mode);
 
 impl<S: Space> StabilityLimit<S> {
     /// Estimator for `nodes` nodes; the start vector alternates in sign, near the highest mode.

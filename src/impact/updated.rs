@@ -389,6 +389,7 @@ impl<'a, M: Constitutive<Axisymmetric>, const P: usize, const N: usize> Updated<
             plastic_strain: self.mean(|p| M::plastic_strain(&p.state).array()[0]),
             points: self.movers.len(),
             steps: self.step,
+            seconds_before: 0.0,
             memory_bytes: size * self.movers.len() + self.mass.len() * 9 * 8,
             status,
             rebound: self.snapshot(),

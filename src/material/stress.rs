@@ -12,6 +12,7 @@
 use crate::lanes::Lanes;
 use crate::material::flow::FlowStress;
 use crate::space::{Space, Symmetric};
+use crate::tape::{Keep, keep_fields};
 
 /// Elastic moduli.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -66,7 +67,7 @@ pub struct Response<T> {
 /// Constitutive model: state of a point and its isochoric response.
 pub trait Constitutive<S: Space>: Copy + Send + Sync + 'static {
     /// State of four points side by side.
-    type State: Copy + Send + Sync;
+    type State: Copy + Keep + Send + Sync;
     /// State of an undeformed point.
     fn virgin(&self) -> Self::State;
     /// Elastic moduli.
@@ -152,6 +153,8 @@ pub struct J2State<T> {
     /// Accumulated equivalent plastic strain.
     pub strain: Lanes,
 }
+
+keep_fields!(impl [T: Keep] J2State<T>: metric, strain);
 
 /// $\sqrt{2/3}$.
 const ROOT: f64 = 0.816_496_580_927_726;

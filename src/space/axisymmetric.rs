@@ -16,6 +16,8 @@ pub struct AxialSymmetric {
     rz: Lanes,
 }
 
+crate::tape::keep_fields!(AxialSymmetric: rr, zz, hoop, rz);
+
 /// Gradient with the components rr, rz, zr, zz, hoop.
 #[derive(Debug, Clone, Copy)]
 pub struct AxialGradient {

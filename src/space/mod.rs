@@ -10,9 +10,10 @@ pub use axisymmetric::{AxialGradient, AxialSymmetric, Axisymmetric};
 pub use solid::{Solid, SolidGradient, SolidSymmetric};
 
 use crate::lanes::Lanes;
+use crate::tape::Keep;
 
 /// Symmetric tensor of a space.
-pub trait Symmetric: Copy + Send + Sync + 'static {
+pub trait Symmetric: Copy + Keep + Send + Sync + 'static {
     /// Unit tensor.
     fn identity() -> Self;
     /// Trace.
@@ -35,7 +36,7 @@ pub trait Symmetric: Copy + Send + Sync + 'static {
 /// A space a run can live in.
 pub trait Space: Copy + Send + Sync + 'static {
     /// Vector of a node (displacement, velocity, force).
-    type Vector: Copy + Default + Send + Sync + std::fmt::Debug + AsRef<[f64]> + AsMut<[f64]>;
+    type Vector: Copy + Default + Keep + Send + Sync + std::fmt::Debug + AsRef<[f64]> + AsMut<[f64]>;
     /// Deformation gradient, or first Piola-Kirchhoff stress.
     type Gradient: Copy + Send + Sync;
     /// Stress-like tensor.

@@ -18,6 +18,8 @@ pub struct SolidSymmetric {
     yz: Lanes,
 }
 
+crate::tape::keep_fields!(SolidSymmetric: xx, yy, zz, xy, xz, yz);
+
 /// Gradient in three dimensions: row (component), then column (direction).
 #[derive(Debug, Clone, Copy)]
 pub struct SolidGradient([[Lanes; 3]; 3]);

@@ -14,6 +14,7 @@ use crate::material::stress::Constitutive;
 use crate::plan::{Plan, Remedies};
 use crate::scheme::TimeStep;
 use crate::space::Space;
+use crate::tape::{Keeper, keep_fields};
 
 /// Outputs over the expected contact time.
 pub(super) const OUTPUTS: f64 = 400.0;
@@ -39,7 +40,16 @@ struct Start {
     eroded: f64,
 }
 
+keep_fields!(Start: height, centre, elastic, eroded);
+keep_fields!(
+    impl [S: Space, M: Constitutive<S>, W: Wall<S>, T: Remap<S::Vector>, const N: usize]
+    Run<'_, S, M, W, T, N>:
+    model, transfer, transferred, u, v, limit, dt, time, step, next_refresh, next_output, impulse, tangential,
+    contact_work, plastic, contact_radius, contact_end, frames, closure, compressed, erosion, start,
+);
+
 /// A run in progress.
+#[derive(Clone)]
 pub(super) struct Run<'a, S, M, W, T, const N: usize>
 where
     S: Space,
@@ -61,6 +71,7 @@ where
     time: f64,
     step: u64,
     next_refresh: u64,
+    next_output: f64,
     impulse: f64,
     tangential: f64,
     contact_work: f64,
@@ -101,6 +112,7 @@ where
             time: 0.0,
             step: 0,
             next_refresh: 0,
+            next_output: 0.0,
             impulse: 0.0,
             tangential: 0.0,
             contact_work: 0.0,
@@ -119,31 +131,50 @@ where
         run
     }
 
-    /// Run the impacts of the plan one after the other; those after one that did not end well are left out.
-    pub(super) fn finish(mut self) -> Vec<Record> {
+    /// Run the impacts of the plan one after the other; those after one that did not end well are left out. A single impact
+    /// is kept by `keeper` while it is under way, and taken up where one was kept.
+    pub(super) fn finish(mut self, mut keeper: Option<Keeper>) -> Vec<Record> {
+        if let Some(keeper) = &mut keeper
+            && keeper.take_up(&mut self)
+        {
+            tracing::info!("taken up at step {}", self.step);
+        }
         let mut records = Vec::with_capacity(self.plan.impacts);
         loop {
-            self.rebound();
+            self.rebound(keeper.as_mut());
             records.push(self.take_record());
             let ended_well = records.last().is_some_and(|r| r.status == Status::Ok);
             if records.len() >= self.plan.impacts || !ended_well || self.is_flat() {
-                return records;
+                break;
             }
             self.start_again();
         }
+        if let Some(keeper) = &keeper {
+            records[0].seconds_before = keeper.seconds_before();
+            keeper.forget();
+        }
+        records
     }
 
     /// Step until the particle has rung out after its rebound, or the run must stop.
-    fn rebound(&mut self) {
+    fn rebound(&mut self, mut keeper: Option<&mut Keeper>) {
         let interval = self.plan.estimate.contact_time / OUTPUTS;
-        let mut next_output = interval;
         while self.failure.is_none() && !self.is_over() {
+            if let Some(keeper) = keeper.as_deref_mut().filter(|k| k.is_due()) {
+                // a run that cannot be kept is still worth finishing
+                if let Err(error) = keeper.keep(self) {
+                    tracing::warn!("{error}");
+                }
+            }
             if self.step == self.next_refresh {
                 self.refresh();
             }
-            let output = self.time >= next_output;
+            if self.step == 0 {
+                self.next_output = interval;
+            }
+            let output = self.time >= self.next_output;
             if output {
-                next_output += interval;
+                self.next_output += interval;
             }
             self.advance(output);
         }

@@ -161,6 +161,7 @@ where
             plastic_strain: self.model.points.plastic_strain_volume() / self.mass,
             points: self.model.points.count(),
             steps: self.step,
+            seconds_before: 0.0,
             memory_bytes,
             transfer_loss,
             frames: std::mem::take(&mut self.frames),
