@@ -59,9 +59,35 @@ fn equal_groups_run_once_and_a_second_call_repeats_nothing() {
     );
     assert_eq!(cell(2, "restitution"), cell(3, "restitution"));
     assert!((cell(3, "contact_time_s") / cell(2, "contact_time_s") - 2.0).abs() < 1e-12);
+    let overview = std::fs::read_to_string(folder.path().join("results/study.md")).unwrap();
+    assert!(overview.contains("| all | 3 | 3 |"), "{overview}");
     // the wall times in the second table are those of the first: nothing was run again
     assert!(study(folder.path()).status.success());
     assert_eq!(first, std::fs::read_to_string(&results).unwrap());
+}
+
+#[test]
+fn refinement_runs_the_drawn_cases_again_with_finer_cells() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("s.toml"), STUDY).unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_impactlaw"))
+        .args(["study", "s.toml", "--out", "results", "--refine", "2"])
+        .current_dir(folder.path())
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(output.status.success(), "{said}");
+    assert!(said.contains("2 of 2 runs change by less"), "{said}");
+    let table = std::fs::read_to_string(folder.path().join("results/refinement.csv")).unwrap();
+    let rows: Vec<&str> = table.lines().filter(|l| !l.starts_with('#')).collect();
+    assert_eq!(rows.len(), 3);
+    let changes: Vec<f64> = rows[1]
+        .split(',')
+        .skip(2)
+        .take(3)
+        .map(|x| x.parse().unwrap())
+        .collect();
+    assert!(changes.iter().any(|c| *c != 0.0) && changes.iter().all(|c| c.abs() < 0.2));
 }
 
 #[test]

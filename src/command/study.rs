@@ -1,6 +1,7 @@
 //! Study command: runs a grid of cases in parallel, equal dimensionless groups once, and resumes where it was stopped.
 
 use super::impact::{CHECKPOINT, CHECKPOINT_FILE};
+use super::show;
 use super::{Context, Verdict, output_folder, print};
 use crate::case::Case;
 use crate::cli::StudyArgs;
@@ -41,6 +42,8 @@ pub fn run(args: &StudyArgs, context: &Context) -> Result<Verdict> {
         &path,
         table(&study, &rows, &context.provenance(&study.hash), &path)?.as_bytes(),
     )?;
+    let overview = show::study::overview(runs.values().map(|(i, s)| (&study.cases[*i], s)));
+    write_atomic(&out.join("study.md"), overview.as_bytes())?;
     let ok = rows.iter().filter(|(_, s)| s.status == Status::Ok).count();
     print(&format!(
         "{} cases, {} runs, {ok} with status ok -> {}\n",

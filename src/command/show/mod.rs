@@ -3,6 +3,7 @@
 mod bed;
 mod impacts;
 mod law;
+pub mod study;
 
 pub use bed::bed;
 pub use impacts::{choices, curves, maps};

@@ -1,0 +1,136 @@
+//! What is done with points outside the hot loop: looked at, kept, swept cell by cell, weakened.
+
+use super::{Point, Points, Purpose, Sweep};
+use crate::lanes::WIDTH;
+use crate::material::stress::Constitutive;
+use crate::space::{Space, Symmetric};
+use crate::tape::{Keep, Tape};
+
+/// A material point as a person would look at it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PointView {
+    /// Deformed position.
+    pub position: [f64; 3],
+    /// Reference position.
+    pub reference: [f64; 3],
+    /// Reference volume.
+    pub volume: f64,
+    /// Accumulated equivalent plastic strain.
+    pub plastic_strain: f64,
+    /// Von Mises (Cauchy) stress.
+    pub von_mises: f64,
+}
+
+impl<S: Space, M: Constitutive<S>, const N: usize> Keep for Points<S, M, N> {
+    fn save(&self, tape: &mut Tape) {
+        self.states.as_slice().save(tape);
+        let left: Vec<(u32, f64)> = self.cells.iter().map(|c| (c.first, c.strength)).collect();
+        left.save(tape);
+    }
+
+    fn load(&mut self, tape: &mut Tape) -> Option<()> {
+        self.states.as_mut_slice().load(tape)?;
+        let mut left: Vec<(u32, f64)> = Vec::new();
+        left.load(tape)?;
+        let mut left = left.into_iter().peekable();
+        self.cells.retain_mut(|cell| {
+            let stays = left.next_if(|(first, _)| *first == cell.first);
+            cell.strength = stays.map_or(0.0, |(_, strength)| strength);
+            stays.is_some()
+        });
+        left.next().is_none().then_some(())
+    }
+}
+
+impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
+    /// Sum over the points of reference volume times accumulated plastic strain.
+    pub fn plastic_strain_volume(&self) -> f64 {
+        self.states
+            .iter()
+            .zip(&self.volumes)
+            .map(|(s, v)| (M::plastic_strain(s) * *v).sum())
+            .sum()
+    }
+
+    /// Every material point at displacements `u`, in a fixed order.
+    pub fn view(&self, u: &[S::Vector]) -> Vec<PointView> {
+        let mut all = Vec::with_capacity(self.cold.len());
+        for cell in &self.cells {
+            let mut cold = self.cold[cell.cold as usize..].iter();
+            for block in cell.first as usize..cell.last as usize {
+                let mut f = S::identity();
+                for (a, w) in self.weights[block].iter().enumerate() {
+                    S::add_node(&mut f, &u[cell.node as usize + self.offsets[a]], w);
+                }
+                let j = S::determinant(&f);
+                let trial = self.material.trial(&f, j.recip_cbrt(), &self.states[block]);
+                let mises = (trial.deviator.squared_norm() * 1.5).sqrt() * j.recip();
+                let strain = M::plastic_strain(&self.states[block]);
+                for lane in 0..WIDTH {
+                    if self.volumes[block].array()[lane] > 0.0
+                        && let Some((node, point)) = cold.next()
+                    {
+                        all.push(PointView {
+                            position: self.displaced(*node as usize, point, u),
+                            reference: point.position,
+                            volume: point.volume,
+                            plastic_strain: strain.array()[lane],
+                            von_mises: mises.array()[lane],
+                        });
+                    }
+                }
+            }
+        }
+        all
+    }
+
+    /// Deformed position of a point whose nodes start at `node`.
+    fn displaced(&self, node: usize, point: &Point<N>, u: &[S::Vector]) -> [f64; 3] {
+        let mut x = point.position;
+        for (a, value) in point.values.iter().enumerate() {
+            for (x, u) in x.iter_mut().zip(u[node + self.offsets[a]].as_ref()) {
+                *x += value * u;
+            }
+        }
+        x
+    }
+
+    /// What `seen` makes of a sweep over each cell alone and of that cell's forces, in the order of the cells.
+    pub fn one_by_one<T>(
+        &mut self,
+        purpose: Purpose,
+        u: &[S::Vector],
+        mut seen: impl FnMut(&Sweep, &[S::Vector]) -> T,
+    ) -> Vec<T> {
+        let mut force = vec![S::Vector::default(); u.len()];
+        let cells = std::mem::take(&mut self.cells);
+        let mut answers = Vec::with_capacity(cells.len());
+        for cell in &cells {
+            self.cells = vec![*cell];
+            let sweep = self.sweep(purpose, u, &mut force);
+            answers.push(seen(&sweep, &force));
+        }
+        self.cells = cells;
+        answers
+    }
+
+    /// Let each cell carry the share `left` of what it carries now; a cell with less than `least` of its strength is taken
+    /// out (its mass stays on the nodes). Returns the volume that lost its strength in this.
+    pub fn weaken(&mut self, left: &[f64], least: f64) -> f64 {
+        let mut lost = 0.0;
+        let mut shares = left.iter();
+        self.cells.retain_mut(|cell| {
+            let before = cell.strength;
+            cell.strength *= shares.next().copied().unwrap_or(1.0);
+            let stays = cell.strength >= least;
+            lost += cell.volume * (before - if stays { cell.strength } else { 0.0 });
+            stays
+        });
+        lost
+    }
+
+    /// Reference volume of all points.
+    pub fn volume(&self) -> f64 {
+        self.volumes.iter().map(|v| v.sum()).sum()
+    }
+}
