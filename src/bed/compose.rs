@@ -13,6 +13,7 @@ use crate::Result;
 use crate::contact::pair::{Flat, Series, Twins};
 use crate::contact::{LawVisitor, NormalLaw};
 use crate::material::Material;
+use crate::tape::Keep;
 use parry3d::math::Vector;
 
 /// Effects beside the normal law.
@@ -52,7 +53,7 @@ pub struct ContactRow {
 }
 
 /// A bed whose law is known by name only: everything but the loops inside a step.
-pub trait AnyBed: Send {
+pub trait AnyBed: Send + Keep {
     /// See [`Bed::evaluate`].
     ///
     /// # Errors

@@ -11,7 +11,7 @@ use parry3d::math::Vector;
 use rayon::prelude::*;
 
 /// Pairs evaluated by one task. Part of the result: sums of losses run over chunks of this size.
-const CHUNK: usize = 512;
+pub(super) const CHUNK: usize = 512;
 /// Pairs pressed by one call of the normal law: few enough to stay in the first cache.
 const BLOCK: usize = 128;
 
@@ -23,13 +23,13 @@ pub struct Contacts<C: ContactLaw> {
     pub memory: Vec<C::Memory>,
     /// Push of each pair at the time of the positions, on its first grain.
     pub pushes: Vec<Push>,
-    model: Box<dyn NormalModel>,
+    pub(super) model: Box<dyn NormalModel>,
     /// Normal histories of each chunk of pairs.
-    histories: Vec<Box<dyn Histories>>,
+    pub(super) histories: Vec<Box<dyn Histories>>,
     /// Losses of each chunk since the pairs were listed.
-    chunks: Vec<Losses>,
+    pub(super) chunks: Vec<Losses>,
     /// Losses before that.
-    spent: Losses,
+    pub(super) spent: Losses,
 }
 
 /// A touching pair between finding and pushing it.
@@ -281,6 +281,12 @@ impl<C: ContactLaw> Contacts<C> {
     #[must_use]
     pub fn stiffest(&self, index: usize, squeeze: Squeeze) -> f64 {
         self.histories[index / CHUNK].stiffest(index % CHUNK, squeeze)
+    }
+
+    /// Largest overlap (m) so far of a pair, where its law remembers it.
+    #[must_use]
+    pub fn largest_overlap(&self, index: usize, radii: [f64; 2]) -> Option<f64> {
+        self.histories[index / CHUNK].largest_overlap(index % CHUNK, radii)
     }
 
     /// Largest flattening over radius the normal law's source supports.

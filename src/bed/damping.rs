@@ -1,6 +1,7 @@
 //! Damping: a viscous force beside the normal law, for the vibration a particle keeps and DEM does not resolve.
 
 use crate::contact::pair::Pressed;
+use crate::tape::Keep;
 use parry3d::math::Vector;
 use std::f64::consts::PI;
 use std::fmt::Debug;
@@ -8,7 +9,7 @@ use std::fmt::Debug;
 /// Viscous force of a contact; `()` is none.
 pub trait Damping: Clone + Send + Sync + 'static {
     /// What is remembered: the undamped force, to tell the work of the law from that of the damper.
-    type Memory: Copy + Default + Send + Sync + PartialEq + Debug;
+    type Memory: Copy + Default + Send + Sync + PartialEq + Keep + Debug;
     /// Whether there is damping.
     const ACTIVE: bool;
 

@@ -3,6 +3,7 @@
 use super::law::Meeting;
 use crate::contact::pair::Pressed;
 use crate::material::Material;
+use crate::tape::Keep;
 use parry3d::math::Vector;
 use std::fmt::Debug;
 
@@ -97,7 +98,7 @@ pub struct Pull {
 /// Tangential force of a contact; `()` is a frictionless one.
 pub trait Tangential: Clone + Send + Sync + 'static {
     /// What is remembered.
-    type Memory: Copy + Default + Send + Sync + PartialEq + Debug;
+    type Memory: Copy + Default + Send + Sync + PartialEq + Keep + Debug;
     /// Whether there is a tangential force.
     const ACTIVE: bool;
 
@@ -234,7 +235,7 @@ impl Tangential for Mindlin {
 /// Resistance of a contact to rolling; `()` is none.
 pub trait Rolling: Clone + Send + Sync + 'static {
     /// What is remembered.
-    type Memory: Copy + Default + Send + Sync + PartialEq + Debug;
+    type Memory: Copy + Default + Send + Sync + PartialEq + Keep + Debug;
     /// Whether there is a moment.
     const ACTIVE: bool;
 

@@ -4,7 +4,7 @@ use parry3d::math::Vector;
 use std::f64::consts::PI;
 
 /// Where a grain is and how large.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[repr(C)]
 pub struct Sphere {
     /// Centre, m.
@@ -14,7 +14,7 @@ pub struct Sphere {
 }
 
 /// How a grain moves.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[repr(C)]
 pub struct Motion {
     /// Velocity half a step before the time of the positions, m/s.
@@ -24,7 +24,7 @@ pub struct Motion {
 }
 
 /// How a grain turns.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[repr(C)]
 pub struct Spin {
     /// Angular velocity half a step before the time of the positions, rad/s.

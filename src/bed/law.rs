@@ -11,6 +11,7 @@
 use super::damping::Damping;
 use super::friction::{Rolling, Tangential};
 use crate::contact::pair::Pressed;
+use crate::tape::Keep;
 use parry3d::math::Vector;
 use std::fmt::Debug;
 
@@ -95,7 +96,7 @@ impl std::ops::AddAssign for Losses {
 /// Effects around a normal law, and their histories, in one.
 pub trait ContactLaw: Clone + Send + Sync + 'static {
     /// What a contact remembers beside the history of its normal law.
-    type Memory: Copy + Default + Send + Sync + PartialEq + Debug + 'static;
+    type Memory: Copy + Default + Send + Sync + PartialEq + Keep + Debug + 'static;
     /// Whether the law can turn bodies.
     const ROTATES: bool;
 

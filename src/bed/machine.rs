@@ -5,6 +5,7 @@
 //! and times stay SI. Everything that comes out is SI.
 
 use super::bodies::{Body, Mobility};
+use crate::tape::keep_fields;
 use crate::{Error, Result};
 use parry3d::math::{Pose, Vector};
 use parry3d::shape::SharedShape;
@@ -52,6 +53,7 @@ pub struct BodyState {
     velocity: Vector,
     spin: Vector,
 }
+keep_fields!(BodyState: pose, velocity, spin);
 
 /// The bodies of a scene.
 pub struct Machine {

@@ -17,6 +17,7 @@ pub mod output;
 mod patches;
 pub mod protocol;
 pub mod render;
+mod restart;
 pub mod row;
 pub mod run;
 pub mod scene;

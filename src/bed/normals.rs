@@ -4,6 +4,7 @@
 //! and the rest of the bed is compiled once for all laws.
 
 use crate::contact::pair::{Press, Pressed};
+use crate::tape::{Keep, Tape};
 use std::any::Any;
 
 /// Relative step back from the present overlap at which the unloading stiffness is read.
@@ -31,6 +32,15 @@ pub trait Histories: Send + Sync {
 
     /// Largest stiffness (N/m) the contact can show now, loading or unloading.
     fn stiffest(&self, at: usize, squeeze: Squeeze) -> f64;
+
+    /// Largest overlap (m) so far of a contact of `radii` (m), where the law remembers it.
+    fn largest_overlap(&self, at: usize, radii: [f64; 2]) -> Option<f64>;
+
+    /// Writes the histories on a tape.
+    fn save(&self, tape: &mut Tape);
+
+    /// Takes back what [`Histories::save`] wrote of as many contacts; `None` when the tape does not fit.
+    fn load(&mut self, tape: &mut Tape) -> Option<()>;
 
     /// Whether both hold the same histories, bit for bit.
     fn same(&self, other: &dyn Histories) -> bool;
@@ -121,6 +131,18 @@ impl<P: Press> Histories for Chunk<P> {
             &mut history,
         );
         loading.stiffness.max(back.stiffness)
+    }
+
+    fn largest_overlap(&self, at: usize, radii: [f64; 2]) -> Option<f64> {
+        self.law.largest_overlap(radii, &self.histories[at])
+    }
+
+    fn save(&self, tape: &mut Tape) {
+        self.histories[..].save(tape);
+    }
+
+    fn load(&mut self, tape: &mut Tape) -> Option<()> {
+        self.histories[..].load(tape)
     }
 
     fn same(&self, other: &dyn Histories) -> bool {

@@ -11,7 +11,7 @@ use parry3d::shape::Triangle;
 use rayon::prelude::*;
 
 /// Candidates evaluated by one task. Part of the result: sums of losses run over chunks of this size.
-const CHUNK: usize = 128;
+pub(super) const CHUNK: usize = 128;
 /// Least cosine between the normals of one contact at two steps: a contact that turned more is another one.
 const SAME_CONTACT: f64 = 0.9;
 
@@ -67,6 +67,13 @@ impl<M> Held<'_, M> {
         }
     }
 
+    /// Largest overlap (m) so far, where the law remembers it.
+    #[must_use]
+    pub fn largest_overlap(&self, grains: &Grains) -> Option<f64> {
+        let radii = self.squeeze(grains).radii;
+        self.history.0.largest_overlap(self.history.1, radii)
+    }
+
     /// Largest stiffness, N/m, its law at full stiffness.
     #[must_use]
     pub fn stiffest(&self, grains: &Grains) -> f64 {
@@ -78,23 +85,23 @@ impl<M> Held<'_, M> {
 
 /// What a task sums up.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-struct Tally {
-    losses: Losses,
-    left_out: u32,
+pub(super) struct Tally {
+    pub(super) losses: Losses,
+    pub(super) left_out: u32,
 }
 
 /// Candidates of one kind of surface: `K` patches for each pair of a grain and a surface near it.
 pub(super) struct Family<C: ContactLaw, const K: usize> {
     /// Grain and surface of each candidate, in order.
-    candidates: Vec<[u32; 2]>,
+    pub(super) candidates: Vec<[u32; 2]>,
     /// Row of each grain: `candidates[start[i]..start[i + 1]]`.
-    start: Vec<u32>,
+    pub(super) start: Vec<u32>,
     /// `K` patches for each candidate.
-    patches: Vec<Patch<C::Memory>>,
+    pub(super) patches: Vec<Patch<C::Memory>>,
     /// Normal histories of each chunk of patches.
-    histories: Vec<Box<dyn Histories>>,
-    tallies: Vec<Tally>,
-    spent: Losses,
+    pub(super) histories: Vec<Box<dyn Histories>>,
+    pub(super) tallies: Vec<Tally>,
+    pub(super) spent: Losses,
 }
 
 impl<C: ContactLaw, const K: usize> Default for Family<C, K> {

@@ -69,21 +69,21 @@ pub struct Bed<C: ContactLaw> {
     /// Work done from outside.
     pub outside: Outside,
     skin: f64,
-    before: Vec<Load>,
-    listed: Listed,
+    pub(super) before: Vec<Load>,
+    pub(super) listed: Listed,
     /// Forces are those of the positions.
-    fresh: bool,
+    pub(super) fresh: bool,
 }
 
 /// Where everything was when neighbours were listed, and how far the grains have come since.
 #[derive(Debug, Clone, PartialEq, Default)]
-struct Listed {
-    centres: Vec<Vector>,
-    poses: Vec<Pose>,
+pub(super) struct Listed {
+    pub(super) centres: Vec<Vector>,
+    pub(super) poses: Vec<Pose>,
     /// Largest squared distance in each chunk of grains, m2.
-    moved: Vec<f64>,
+    pub(super) moved: Vec<f64>,
     /// Neighbours must be listed before the next step.
-    due: bool,
+    pub(super) due: bool,
 }
 
 impl<C: ContactLaw> Bed<C> {

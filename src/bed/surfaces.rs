@@ -12,9 +12,9 @@ use parry3d::math::Vector;
 
 /// All contacts of grains with bodies.
 pub struct Surfaces<C: ContactLaw> {
-    model: Box<dyn NormalModel>,
-    solids: Family<C, 1>,
-    meshes: Family<C, MAX_TOUCHES>,
+    pub(super) model: Box<dyn NormalModel>,
+    pub(super) solids: Family<C, 1>,
+    pub(super) meshes: Family<C, MAX_TOUCHES>,
 }
 
 impl<C: ContactLaw> Surfaces<C> {

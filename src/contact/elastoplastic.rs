@@ -6,6 +6,7 @@ use super::inertia::Inertia;
 use super::loading::{Loading, SoftenedHertz};
 use super::spline::SplineLoading;
 use super::unloading::Unloading;
+use crate::tape::keep_fields;
 
 /// Fitted law with its closed-form loading curve.
 pub type ClosedForm = Elastoplastic<SoftenedHertz>;
@@ -57,6 +58,8 @@ pub struct Memory {
     /// Exponent $n$ of the branch, at least 1; 0 as long as nobody has asked for the branch.
     exponent: f64,
 }
+
+keep_fields!(Memory: flattening, force, residual, exponent);
 
 /// Rounding allowed when the bound of the loading exponent is held against that of unloading.
 const EXPONENT_ROUNDING: f64 = 1e-9;
@@ -228,6 +231,10 @@ impl<L: Loading> NormalLaw for Elastoplastic<L> {
 
     fn contact_radius(&self, _x: f64, _history: &Memory) -> Option<f64> {
         None
+    }
+
+    fn largest(&self, history: &Memory) -> Option<f64> {
+        Some(history.flattening)
     }
 
     fn valid_to(&self) -> f64 {

@@ -17,6 +17,7 @@ pub mod rebound;
 pub mod spline;
 pub mod unloading;
 
+use crate::tape::Keep;
 use inertia::Inertia;
 
 /// Normal force law of one body on a rigid plane: a pure function of flattening and its history.
@@ -25,7 +26,7 @@ use inertia::Inertia;
 /// time step.
 pub trait NormalLaw: Clone + Send + Sync + 'static {
     /// What the contact remembers (e.g. the largest flattening); `Default` is the virgin contact.
-    type History: Copy + Default + Send + Sync + PartialEq + std::fmt::Debug;
+    type History: Copy + Default + Send + Sync + PartialEq + Keep + std::fmt::Debug;
 
     /// Reduced force $F/R^2$ (Pa) at flattening `x` = $\delta/R$, updating the history. 0 where contact is lost.
     fn force(&self, x: f64, history: &mut Self::History) -> f64;
@@ -38,6 +39,11 @@ pub trait NormalLaw: Clone + Send + Sync + 'static {
 
     /// Contact radius over R, where the law states one.
     fn contact_radius(&self, x: f64, history: &Self::History) -> Option<f64>;
+
+    /// Largest flattening `x` so far, where the law remembers it.
+    fn largest(&self, _history: &Self::History) -> Option<f64> {
+        None
+    }
 
     /// Largest flattening `x` the law's source supports; `f64::INFINITY` when it states none.
     fn valid_to(&self) -> f64;

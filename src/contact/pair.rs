@@ -12,6 +12,7 @@
 //! | [`Series`] | two grains of one material and any radii | solved, each side with its own history |
 
 use super::NormalLaw;
+use crate::tape::{Keep, keep_fields};
 use std::fmt::Debug;
 
 /// Relative mismatch of the two forces that counts as rounding.
@@ -35,12 +36,15 @@ pub struct Pressed {
 /// What presses: a pair of bodies, or a body and a rigid surface.
 pub trait Press: Clone + Send + Sync + 'static {
     /// What the contact remembers.
-    type History: Copy + Default + Send + Sync + PartialEq + Debug;
+    type History: Copy + Default + Send + Sync + PartialEq + Keep + Debug;
     /// Force at `overlap` (m) of bodies of `radii` (m), updating the history.
     fn press(&self, overlap: f64, radii: [f64; 2], history: &mut Self::History) -> Pressed;
 
     /// Recoverable energy (J) at `overlap`, the history being up to date.
     fn elastic_energy(&self, overlap: f64, radii: [f64; 2], history: &Self::History) -> f64;
+
+    /// Largest overlap (m) so far of bodies of `radii` (m), where the law remembers it.
+    fn largest_overlap(&self, radii: [f64; 2], history: &Self::History) -> Option<f64>;
 
     /// Largest flattening over radius the law's source supports.
     fn valid_to(&self) -> f64;
@@ -77,6 +81,10 @@ impl<L: NormalLaw> Press for Flat<L> {
 
     fn elastic_energy(&self, overlap: f64, radii: [f64; 2], history: &L::History) -> f64 {
         radii[0].powi(3) * self.0.elastic_energy(overlap / radii[0], history)
+    }
+
+    fn largest_overlap(&self, radii: [f64; 2], history: &L::History) -> Option<f64> {
+        self.0.largest(history).map(|x| x * radii[0])
     }
 
     fn valid_to(&self) -> f64 {
@@ -122,6 +130,10 @@ impl<L: NormalLaw> Press for Twins<L> {
         2.0 * radii[0].powi(3) * self.0.elastic_energy(0.5 * overlap / radii[0], history)
     }
 
+    fn largest_overlap(&self, radii: [f64; 2], history: &L::History) -> Option<f64> {
+        self.0.largest(history).map(|x| 2.0 * x * radii[0])
+    }
+
     fn valid_to(&self) -> f64 {
         self.0.valid_to()
     }
@@ -139,6 +151,8 @@ pub struct Sides<H> {
     /// Share of the overlap the first side took last: where the next search starts (0: none yet).
     pub share: f64,
 }
+
+keep_fields!(impl [H: Keep] Sides<H>: histories, share);
 
 /// One side of a series contact at a trial flattening.
 struct Trial<H> {
@@ -228,6 +242,12 @@ impl<L: NormalLaw> Press for Series<L> {
         };
         energy(radii[0], first, &sides.histories[0])
             + energy(radii[1], overlap - first, &sides.histories[1])
+    }
+
+    /// Both sides have their largest flattening at the same time, that of the largest force.
+    fn largest_overlap(&self, radii: [f64; 2], sides: &Self::History) -> Option<f64> {
+        let [first, second] = &sides.histories;
+        Some(self.0.largest(first)? * radii[0] + self.0.largest(second)? * radii[1])
     }
 
     fn valid_to(&self) -> f64 {

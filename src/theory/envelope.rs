@@ -1,6 +1,7 @@
 //! Envelope: a loading curve and the power-law unloading branch that leaves it at the largest flattening.
 
 use crate::contact::NormalLaw;
+use crate::tape::keep_fields;
 
 /// Branch that leaves the loading curve at a peak $(x_m, \varphi_m)$:
 ///
@@ -69,6 +70,8 @@ pub struct Peak {
     exponent: f64,
 }
 
+keep_fields!(Peak: flattening, force, residual, exponent);
+
 impl Peak {
     /// Position on the branch: 0 at loss of contact, 1 at the peak.
     fn position(&self, x: f64) -> f64 {
@@ -136,6 +139,10 @@ impl<E: Envelope> NormalLaw for E {
         let branch = self.unloading(peak.flattening, peak.force);
         let widest = self.loading_contact_radius(peak.flattening);
         Some(widest * peak.position(x).powf(0.5 * branch.area_exponent))
+    }
+
+    fn largest(&self, peak: &Peak) -> Option<f64> {
+        Some(peak.flattening)
     }
 
     fn valid_to(&self) -> f64 {
