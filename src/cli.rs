@@ -42,6 +42,8 @@ pub enum Verb {
     Study(StudyArgs),
     /// Show what accuracy costs: ladders over grid, points, time step and scheme; errors against wall time.
     Cost(CostArgs),
+    /// Write a law for other codes, and check there that it is the same law.
+    Export(ExportArgs),
     /// Work with a law file.
     Law {
         /// What to do with it.
@@ -212,4 +214,23 @@ pub struct LawEvalArgs {
     /// Largest displacement reached before: the displacements lie on the unloading branch.
     #[arg(long)]
     pub max_displacement: Option<String>,
+}
+
+/// Arguments of `export`.
+#[derive(Debug, Args)]
+pub struct ExportArgs {
+    /// Law file.
+    pub law: PathBuf,
+    /// Where the law goes: `c`, `table`; more than one with commas, or `all`.
+    #[arg(long, num_args = 1.., value_delimiter = ',')]
+    pub to: Vec<String>,
+    /// Form of the law instead of the file's: `closed_form`, `spline` or `hertz`.
+    #[arg(long)]
+    pub form: Option<String>,
+    /// Output folder (default: `out/<law name>/export`).
+    #[arg(short, long)]
+    pub out: Option<PathBuf>,
+    /// Compile and run the law in the codes that are installed, and print how well they agree.
+    #[arg(long)]
+    pub check: bool,
 }

@@ -23,6 +23,7 @@ pub mod cost;
 pub mod curve;
 pub mod document;
 pub mod error;
+pub mod export;
 pub mod files;
 pub mod fit;
 pub mod impact;

@@ -32,6 +32,7 @@ fn dispatch(cli: &Cli) -> Result<Verdict> {
         Verb::Bed(args) => command::bed::run(args, context),
         Verb::Study(args) => command::study::run(args, context),
         Verb::Cost(args) => command::cost::run(args, context),
+        Verb::Export(args) => command::export::run(args, context),
         Verb::Law { verb } => command::law::run(verb, context),
     }
 }

@@ -4,6 +4,7 @@ pub mod bed;
 pub mod compare;
 pub mod cost;
 pub mod diagnostic;
+pub mod export;
 pub mod fit;
 pub mod impact;
 pub mod law;

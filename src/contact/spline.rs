@@ -155,6 +155,13 @@ impl SplineLoading {
         &self.knots
     }
 
+    /// Where each interval starts in $w$ and in $s = \sqrt w$, and its cubic in $s$ counted from there; the last one is
+    /// the straight line.
+    pub fn cubics(&self) -> impl Iterator<Item = (f64, f64, [f64; 4])> {
+        let pieces = self.starts.iter().zip(&self.pieces);
+        pieces.map(|(&w, piece)| (w, piece.start, piece.coefficients))
+    }
+
     #[inline]
     fn piece(&self, w: f64) -> &Piece {
         let inner = &self.starts[1..];

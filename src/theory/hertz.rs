@@ -43,6 +43,12 @@ impl Hertz {
         Self::new(material.contact_modulus())
     }
 
+    /// $\tfrac43 E^*$, Pa.
+    #[must_use]
+    pub fn prefactor(&self) -> f64 {
+        self.prefactor
+    }
+
     /// Reduced force $F/R^2$ (Pa) at `x` = delta/R.
     pub(crate) fn reduced_force(&self, x: f64) -> f64 {
         if x > 0.0 {

@@ -1,0 +1,105 @@
+//! `export`: a law file to the files of other codes, and the check that they hold the same law.
+
+use super::{Context, Verdict, output_folder, print};
+use crate::cli::ExportArgs;
+use crate::export::check::{self, Finding};
+use crate::export::portable::Portable;
+use crate::export::{Artifact, Target};
+use crate::files::write_atomic;
+use crate::law::Form;
+use crate::{Error, Result};
+use std::fmt::Write;
+
+/// Run the verb.
+///
+/// # Errors
+/// Those of the law file and the arguments, of a target that cannot express the law, and of writing.
+pub fn run(args: &ExportArgs, context: &Context) -> Result<Verdict> {
+    let targets = targets(&args.to, args.check)?;
+    let form = args.form.as_deref().map(form).transpose()?;
+    let law = Portable::read(&args.law, form)?;
+    let mut artifacts: Vec<Artifact> = Vec::new();
+    for target in &targets {
+        artifacts.extend(target.export(&law)?);
+    }
+    if !targets.is_empty() {
+        let folder = output_folder(args.out.as_deref(), &law.name)?;
+        let folder = match args.out {
+            Some(_) => folder,
+            None => folder.join("export"),
+        };
+        let mut said = String::new();
+        for artifact in &artifacts {
+            let path = folder.join(&artifact.name);
+            write_atomic(&path, artifact.text.as_bytes())?;
+            let _ = writeln!(said, "{}", path.display());
+        }
+        print(&said)?;
+    }
+    match args.check {
+        true => check_all(&law, context),
+        false => Ok(Verdict::Met),
+    }
+}
+
+/// Targets by name, once each; `all` is every one. None are needed with `--check`.
+fn targets(names: &[String], check: bool) -> Result<Vec<Target>> {
+    if names.is_empty() && !check {
+        return Err(Error::Argument {
+            argument: "--to".to_owned(),
+            found: "nothing".to_owned(),
+            allowed: format!(
+                "name one or more of {}, or all; or give --check",
+                Target::ALL.map(Target::name).join(", ")
+            ),
+        });
+    }
+    let mut targets = Vec::new();
+    for name in names {
+        match name.as_str() {
+            "all" => targets.extend(Target::ALL),
+            name => targets.push(name.parse()?),
+        }
+    }
+    let mut seen = std::collections::HashSet::new();
+    targets.retain(|target| seen.insert(*target));
+    Ok(targets)
+}
+
+fn form(text: &str) -> Result<Form> {
+    match text {
+        "closed_form" => Ok(Form::ClosedForm),
+        "spline" => Ok(Form::Spline),
+        "hertz" => Ok(Form::Hertz),
+        _ => Err(Error::Argument {
+            argument: "--form".to_owned(),
+            found: format!("`{text}`"),
+            allowed: "must be one of closed_form, spline, hertz".to_owned(),
+        }),
+    }
+}
+
+/// Run every check and print the table; a deviation that is not allowed is a missed threshold.
+fn check_all(law: &Portable, context: &Context) -> Result<Verdict> {
+    let checks = check::all();
+    let bar = context.progress(checks.len() as u64, "check");
+    let mut findings = Vec::new();
+    for check in &checks {
+        let scratch = tempfile::tempdir().map_err(Error::file(
+            "create",
+            std::path::Path::new("temporary folder"),
+        ))?;
+        findings.push((check.name(), check.run(law, scratch.path())?));
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    print(&check::table(&findings))?;
+    let missed = findings.iter().any(|(_, finding)| match finding {
+        Finding::Ran { agreements, .. } => agreements.iter().any(|a| !a.holds()),
+        Finding::Skipped { .. } => false,
+    });
+    Ok(match missed {
+        true => Verdict::Missed,
+        false => Verdict::Met,
+    })
+}

@@ -1,0 +1,131 @@
+//! Description of an exported law: the text that every dialect carries on top, so that its file explains itself.
+
+use super::portable::{Portable, form_name};
+use super::reference::Impact;
+use crate::law::Form;
+use std::fmt::Write;
+
+/// Convention of moduli and radii, history and reset; what a reader of any dialect has to know.
+const CONVENTIONS: &str = "\
+Units: SI (m, kg, s, N, Pa). Overlap > 0 in contact, force > 0 repels, rate > 0 approaches.
+Convention: the law is that of one body on a rigid plane, F = R^2 phi(delta/R). The modulus is that of the body alone,
+E* = E/(1 - nu^2), and the radius its own: no effective radius, no mixing. A wall is rigid; two bodies are two
+flattenings in series, delta = delta_1 + delta_2, F_1 = F_2; equal bodies take delta/2 each.
+History of each side of a contact: its largest flattening x_max = delta_max/R (what else is kept follows from it). Virgin: 0.
+Loading: the curve, for delta beyond delta_max. Below it: the unloading branch of delta_max, for reloading too. No tension.
+Reset: to 0 when the bodies no longer overlap. Zero force at overlap > 0 (an impression) keeps the history.
+Path-exact: the force follows from flattening and x_max, never from sums over steps, so it does not depend on the time step.
+Not in the law: friction, rolling resistance, viscous damping.";
+
+/// Lines of the description.
+#[must_use]
+pub fn lines(law: &Portable) -> Vec<String> {
+    let mut text = String::new();
+    let file = &law.file;
+    let material = &file.material;
+    let form = match law.form {
+        Form::Hertz => "elastic",
+        Form::ClosedForm => "closed form",
+        Form::Spline => "spline",
+    };
+    let _ = writeln!(
+        text,
+        "Normal contact law \"{}\", {form}, from simulated impacts.\n{CONVENTIONS}\n",
+        law.name
+    );
+    let _ = writeln!(
+        text,
+        "Material: density {} kg/m3, Young's modulus {:e} Pa, Poisson's ratio {}, yield strength {}, linear hardening {}.",
+        material.density_kg_m3,
+        material.young_modulus_pa,
+        material.poisson_ratio,
+        material
+            .yield_strength_pa
+            .map_or("none".to_owned(), |y| format!("{y:e} Pa")),
+        material
+            .hardening_modulus_pa
+            .map_or("none".to_owned(), |h| format!("{h:e} Pa")),
+    );
+    let _ = writeln!(
+        text,
+        "Valid: delta/R up to {:.4} a body, impacts on a wall from {} to {} m/s; extrapolated beyond.",
+        file.valid.displacement_over_radius_max,
+        file.valid.velocity_min_m_s,
+        file.valid.velocity_max_m_s
+    );
+    let _ = writeln!(
+        text,
+        "Suggested time step: {:.3e} s/m times the radius of the smallest body (R = {} m: {:.3e} s).",
+        law.time_step_over_radius,
+        law.radius(),
+        law.time_step_over_radius * law.radius()
+    );
+    inertia(law, &mut text);
+    let _ = writeln!(
+        text,
+        "Provenance: {}; fitted by {} to case {} (sha256 {}); law file sha256 {}, form {}.\n",
+        crate::PROGRAM,
+        file.provenance.program,
+        file.provenance.case,
+        file.provenance.case_sha256,
+        law.hash,
+        form_name(law.form),
+    );
+    reference(law, &mut text);
+    text.lines().map(str::to_owned).collect()
+}
+
+fn inertia(law: &Portable, text: &mut String) {
+    if law.inertia() == 0.0 {
+        return;
+    }
+    let _ = writeln!(
+        text,
+        "Inertia: fast first loading carries F_i = R^2 {:.4} rho v^2 sqrt((delta - delta_1)/R) besides; the reference impacts\n\
+         are without it, as beds are.",
+        law.inertia()
+    );
+}
+
+fn reference(law: &Portable, text: &mut String) {
+    text.push_str("Reference impacts (relative speed, m/s; m; N; s):\n");
+    for impact in &law.reference.impacts {
+        let f = &impact.figures;
+        let _ = writeln!(
+            text,
+            "  {}, {} m/s: e {:.9}, F* {:.9e}, delta* {:.9e}, delta_res {:.9e}, contact time {:.9e}",
+            bodies(impact),
+            impact.velocity,
+            f.restitution,
+            f.max_force,
+            f.max_displacement,
+            f.residual_displacement,
+            f.contact_time
+        );
+    }
+    let wall = &law.reference.impacts[1];
+    let _ = writeln!(
+        text,
+        "Trajectory of a sphere on a wall at {} m/s (two equal spheres at {} m/s: twice the overlap):\n  time s, overlap m, force N",
+        wall.velocity,
+        2.0 * wall.velocity
+    );
+    for point in &law.reference.trajectory {
+        let _ = writeln!(
+            text,
+            "  {:.9e}, {:.9e}, {:.9e}",
+            point.time, point.flattening, point.force
+        );
+    }
+}
+
+/// Which bodies meet.
+#[must_use]
+pub fn bodies(impact: &Impact) -> String {
+    let [a, b] = impact.radii;
+    match b {
+        0.0 => format!("sphere R {a} on wall"),
+        _ if a == b => format!("two spheres R {a}"),
+        _ => format!("spheres R {a} and {b}"),
+    }
+}
