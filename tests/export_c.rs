@@ -138,7 +138,10 @@ fn bad_arguments_give_one_error_and_write_nothing() {
             vec!["--to", "c", "--form", "cubic"],
             "closed_form, spline, hertz",
         ),
-        (vec!["--to", "c", "--form", "hertz"], "is not in the file"),
+        (
+            vec!["--to", "c", "--form", "hertz"],
+            "is not in the law file, which holds closed_form, spline",
+        ),
     ] {
         let mut all = vec!["export", &model, "-o", "out"];
         all.extend(arguments);

@@ -61,18 +61,24 @@ pub fn lines(law: &Portable) -> Vec<String> {
         law.time_step_over_radius * law.radius()
     );
     inertia(law, &mut text);
-    let _ = writeln!(
-        text,
-        "Provenance: {}; fitted by {} to case {} (sha256 {}); law file sha256 {}, form {}.\n",
-        crate::PROGRAM,
-        file.provenance.program,
-        file.provenance.case,
-        file.provenance.case_sha256,
-        law.hash,
-        form_name(law.form),
-    );
+    let _ = writeln!(text, "{}\n", provenance(law));
     reference(law, &mut text);
     text.lines().map(str::to_owned).collect()
+}
+
+/// Where the law comes from.
+#[must_use]
+pub fn provenance(law: &Portable) -> String {
+    let from = &law.file.provenance;
+    format!(
+        "Provenance: {}; fitted by {} to case {} (sha256 {}); law file sha256 {}, form {}.",
+        crate::PROGRAM,
+        from.program,
+        from.case,
+        from.case_sha256,
+        law.hash,
+        form_name(law.form),
+    )
 }
 
 fn inertia(law: &Portable, text: &mut String) {

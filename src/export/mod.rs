@@ -7,6 +7,7 @@ pub mod c;
 pub mod check;
 pub mod describe;
 pub mod kernel;
+pub mod native;
 pub mod portable;
 pub mod reference;
 pub mod table;
@@ -30,11 +31,13 @@ pub enum Target {
     C,
     /// [`table`].
     Table,
+    /// [`native`].
+    Native,
 }
 
 impl Target {
     /// Every target, in the order of messages.
-    pub const ALL: [Target; 2] = [Target::C, Target::Table];
+    pub const ALL: [Target; 3] = [Target::C, Target::Table, Target::Native];
 
     /// Name on the command line.
     #[must_use]
@@ -42,6 +45,7 @@ impl Target {
         match self {
             Target::C => "c",
             Target::Table => "table",
+            Target::Native => "native",
         }
     }
 
@@ -53,6 +57,7 @@ impl Target {
         Ok(match self {
             Target::C => c::export(law),
             Target::Table => table::export(law),
+            Target::Native => native::files(law)?,
         })
     }
 }

@@ -1,12 +1,12 @@
 //! Portable form of a law: what every dialect is written from, whatever its language.
 
 use super::reference::{self, Reference};
-use crate::Result;
 use crate::bed::time_step::rayleigh_time;
 use crate::contact::{LawVisitor, NormalLaw};
 use crate::document::Document;
 use crate::law::{FittedLaw, Form, LawFile};
 use crate::material::Material;
+use crate::{Error, Result};
 use std::f64::consts::PI;
 use std::path::Path;
 
@@ -44,7 +44,7 @@ impl Portable {
     /// Portable form of a law file, in the form it names or in `form`.
     ///
     /// # Errors
-    /// Those of [`LawFile::read`]; [`crate::Error::Argument`] when the file lacks the form.
+    /// Those of [`LawFile::read`]; [`Error::Argument`] when the file lacks the form.
     pub fn read(path: &Path, form: Option<Form>) -> Result<Self> {
         let document = Document::read(path)?;
         let file = LawFile::parse(&document)?;
@@ -54,9 +54,9 @@ impl Portable {
     /// Portable form of a law file whose text has the SHA-256 `hash`.
     ///
     /// # Errors
-    /// [`crate::Error::Argument`] when the file lacks the form.
+    /// [`Error::Argument`] when the file lacks the form.
     pub fn new(file: LawFile, form: Option<Form>, hash: String) -> Result<Self> {
-        let form = form.unwrap_or(file.form);
+        let form = held(&file, form.unwrap_or(file.form))?;
         let full = file.law_in(form)?;
         let core = at_rest(&file).law_in(form)?;
         let time_step_over_radius = suggested_time_step(&core, &file);
@@ -108,6 +108,29 @@ pub fn form_name(form: Form) -> &'static str {
         Form::ClosedForm => "closed_form",
         Form::Spline => "spline",
     }
+}
+
+/// `form`, if the file has a table of it.
+fn held(file: &LawFile, form: Form) -> Result<Form> {
+    let holds = |form: &Form| match form {
+        Form::Hertz => file.hertz.is_some(),
+        Form::ClosedForm => file.closed_form.is_some(),
+        Form::Spline => file.spline.is_some(),
+    };
+    if holds(&form) {
+        return Ok(form);
+    }
+    let held = [Form::ClosedForm, Form::Spline, Form::Hertz];
+    let names: Vec<&str> = held
+        .iter()
+        .filter(|f| holds(f))
+        .map(|f| form_name(*f))
+        .collect();
+    Err(Error::Argument {
+        argument: "--form".to_owned(),
+        found: form_name(form).to_owned(),
+        allowed: format!("is not in the law file, which holds {}", names.join(", ")),
+    })
 }
 
 /// The file with no inertia in any form.

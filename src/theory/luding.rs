@@ -32,7 +32,13 @@ impl Luding {
     /// Law from $k_1/R$ and $\hat k_2/R$ (Pa); $\hat k_2 = k_1$ is a linear elastic spring.
     #[must_use]
     pub fn new(loading: f64, limit: f64) -> Self {
-        let limit_residual = 0.5 * PLASTICITY_DEPTH;
+        Self::with_depth(loading, limit, PLASTICITY_DEPTH)
+    }
+
+    /// The same with another plasticity depth $\phi_f$.
+    #[must_use]
+    pub fn with_depth(loading: f64, limit: f64, depth: f64) -> Self {
+        let limit_residual = 0.5 * depth;
         Self {
             loading,
             limit,

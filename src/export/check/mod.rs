@@ -1,12 +1,15 @@
 //! Check: the exported law compiled and run in the codes that are installed, held against the law itself.
 
 mod c;
+mod native;
 pub mod paths;
 mod process;
 
 pub use c::CompilerCheck;
+pub use native::NativeCheck;
 pub use process::{Ran, find_program, run};
 
+use super::native::Code;
 use super::portable::Portable;
 use crate::Result;
 use std::fmt::Write;
@@ -63,7 +66,12 @@ pub trait Check {
 /// Every check, in the order of the table.
 #[must_use]
 pub fn all() -> Vec<Box<dyn Check>> {
-    vec![Box::new(CompilerCheck)]
+    vec![
+        Box::new(CompilerCheck),
+        Box::new(NativeCheck(Code::Liggghts)),
+        Box::new(NativeCheck(Code::Lammps)),
+        Box::new(NativeCheck(Code::Yade)),
+    ]
 }
 
 /// The findings as text: a table of the comparisons, and what was skipped and why.
