@@ -1,6 +1,7 @@
 //! MDR: the method of dimensionality reduction of Zunker and Kamrin for one contact, without adhesion and bulk response.
 
 use crate::contact::NormalLaw;
+use crate::tape::keep_fields;
 use std::f64::consts::PI;
 
 /// Elastic-plastic sphere mapped on an elliptical indenter of height A and width B in a bed of springs.
@@ -35,6 +36,8 @@ pub struct Indent {
     /// Flattening at yield over R; 0: not yet.
     yielded: f64,
 }
+
+keep_fields!(Indent: most, yielded);
 
 impl Mdr {
     /// Law from Young's modulus (Pa), Poisson's ratio and yield strength (Pa).
