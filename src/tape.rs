@@ -110,6 +110,16 @@ impl Keep for u32 {
     }
 }
 
+impl Keep for u8 {
+    fn save(&self, tape: &mut Tape) {
+        u64::from(*self).save(tape);
+    }
+    fn load(&mut self, tape: &mut Tape) -> Option<()> {
+        *self = tape.next()?.try_into().ok()?;
+        Some(())
+    }
+}
+
 impl<A: Keep, B: Keep> Keep for (A, B) {
     fn save(&self, tape: &mut Tape) {
         self.0.save(tape);

@@ -9,7 +9,7 @@ use impactlaw::bed::machine::Machine;
 use impactlaw::bed::normals::{Model, NormalModel};
 use impactlaw::bed::step::{Bed, Normals, Parts};
 use impactlaw::contact::NormalLaw;
-use impactlaw::contact::pair::{Flat, Press, Series, Twins};
+use impactlaw::contact::pair::{Alike, Flat, Press, Twins};
 use impactlaw::contact::rebound::rebound;
 use impactlaw::material::{Flow, Material};
 use impactlaw::theory::hertz::Hertz;
@@ -230,27 +230,29 @@ fn two_equal_grains_meet_like_one_on_a_wall() {
 }
 
 #[test]
-fn series_of_two_equal_grains_is_a_pair_of_twins() {
+fn grains_of_one_radius_and_of_any_radii_are_pressed_alike_where_radii_agree() {
     let law = Straight {
         loading: 1e9,
         unloading: 3e9,
     };
     let time = rebound(&law, RADIUS, MATERIAL.sphere_mass(RADIUS), 2.0).contact_time;
     let twins = pair_restitution(smooth(), Twins(law), [RADIUS; 2], time, 2.0, 1000.0);
-    let series = pair_restitution(smooth(), Series(law), [RADIUS; 2], time, 2.0, 1000.0);
-    assert!((series - twins).abs() < 1e-12, "{series} {twins}");
+    let alike = pair_restitution(smooth(), Alike(law), [RADIUS; 2], time, 2.0, 1000.0);
+    assert!((alike - twins).abs() < 1e-12, "{alike} {twins}");
 }
 
 #[test]
-fn unequal_elastic_grains_share_force_as_hertz_says() {
+fn unequal_elastic_grains_are_pressed_as_hertz_says() {
     let law = Hertz::of(&MATERIAL);
     let (radii, overlap): ([f64; 2], f64) = ([RADIUS, 3.0 * RADIUS], 1e-7);
-    let pressed = Series(law).press(overlap, radii, &mut Default::default());
-    // springs in series: every side takes (3F / 4E* sqrt(R))^(2/3), so that the force follows from the overlap
-    let compliance = |r: f64| (0.75 / (MATERIAL.contact_modulus() * r.sqrt())).powf(2.0 / 3.0);
-    let force = (overlap / (compliance(radii[0]) + compliance(radii[1]))).powf(1.5);
+    let pressed = Alike(law).press(overlap, radii, &mut ());
+    // Johnson 1985, section 4.2: 1/R = 1/R1 + 1/R2 and 1/E* = 2 (1 - nu^2)/E
+    let (effective, modulus) = (0.75 * RADIUS, 0.5 * MATERIAL.contact_modulus());
+    let force = 4.0 / 3.0 * modulus * effective.sqrt() * overlap.powf(1.5);
     assert!((pressed.force / force - 1.0).abs() < 1e-12);
-    assert!((pressed.stiffness * overlap / (1.5 * force) - 1.0).abs() < 1e-9);
+    assert!((pressed.stiffness * overlap / (1.5 * force) - 1.0).abs() < 1e-12);
+    let contact_radius = (effective * overlap).sqrt();
+    assert!((pressed.contact_radius / contact_radius - 1.0).abs() < 1e-12);
 }
 
 #[test]

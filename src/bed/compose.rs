@@ -10,7 +10,7 @@ use super::normals::{Model, NormalModel};
 use super::scene::ContactTable;
 use super::step::{Bed, Normals, Parts};
 use crate::Result;
-use crate::contact::pair::{Flat, Series, Twins};
+use crate::contact::pair::{Alike, Flat, Twins};
 use crate::contact::{LawVisitor, NormalLaw};
 use crate::material::Material;
 use crate::tape::Keep;
@@ -162,8 +162,11 @@ impl<C: ContactLaw> AnyBed for Bed<C> {
             .enumerate()
             .filter(|(_, push)| carries(push.force));
         let pairs = pairs.map(|(index, push)| ContactRow {
-            ends: self.contacts.list.pairs[index]
-                .map(|grain| self.grains.spheres[grain as usize].centre),
+            ends: {
+                let second = self.contacts.list.pairs[index][1] as usize;
+                let end = self.grains.spheres[second].centre;
+                [end + self.contacts.line(index, &self.grains), end]
+            },
             force: push.force,
             overlap: self.squeeze_of(index).overlap,
             plastic: self.plastic_in(index),
@@ -203,7 +206,7 @@ impl LawVisitor for NormalsOf<'_> {
         let pair: Box<dyn NormalModel> = if self.grains.monodisperse() {
             Box::new(Model(Twins(law.clone())))
         } else {
-            Box::new(Model(Series(law.clone())))
+            Box::new(Model(Alike(law.clone())))
         };
         Normals {
             pair,

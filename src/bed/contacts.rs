@@ -6,6 +6,7 @@ use super::grains::Grains;
 use super::law::{ContactLaw, Losses, Meeting, Push};
 use super::neighbours::HalfList;
 use super::normals::{Histories, NormalModel, Squeeze};
+use super::periodic::IMAGES;
 use crate::contact::pair::Pressed;
 use parry3d::math::Vector;
 use rayon::prelude::*;
@@ -42,6 +43,9 @@ struct Found {
 /// One chunk of pairs, as one task sees it.
 struct Chunk<'a, C: ContactLaw> {
     pairs: &'a [[u32; 2]],
+    /// Image of each first grain; empty in an open room.
+    images: &'a [u8],
+    shifts: &'a [Vector; IMAGES],
     memory: &'a mut [C::Memory],
     pushes: &'a mut [Push],
     histories: &'a mut dyn Histories,
@@ -50,7 +54,13 @@ struct Chunk<'a, C: ContactLaw> {
 
 /// Kinematics of a pair of grains at `overlap` along `normal`.
 #[inline(always)]
-fn meeting(grains: &Grains, [i, j]: [u32; 2], overlap: f64, normal: Vector, dt: f64) -> Meeting {
+fn meeting<C: ContactLaw>(
+    grains: &Grains,
+    [i, j]: [u32; 2],
+    overlap: f64,
+    normal: Vector,
+    dt: f64,
+) -> Meeting {
     let (i, j) = (i as usize, j as usize);
     let (a, b) = (&grains.motions[i], &grains.motions[j]);
     let radii = [grains.spheres[i].radius, grains.spheres[j].radius];
@@ -63,6 +73,11 @@ fn meeting(grains: &Grains, [i, j]: [u32; 2], overlap: f64, normal: Vector, dt: 
         inverse_distance: 1.0 / (radii[0] + radii[1] - overlap),
         mass: 1.0 / (a.inverse_mass + b.inverse_mass),
         dt,
+        materials: if C::BY_MATERIAL {
+            [grains.material(i), grains.material(j)]
+        } else {
+            [0; 2]
+        },
     }
 }
 
@@ -81,7 +96,8 @@ impl<C: ContactLaw> Chunk<'_, C> {
                 .press(&at[..count], &squeezes[..count], &mut pressed[..count]);
             for ((found, squeeze), pressed) in found[..count].iter().zip(&squeezes).zip(&pressed) {
                 let at = found.at as usize;
-                let meeting = meeting(grains, self.pairs[at], squeeze.overlap, found.normal, dt);
+                let meeting =
+                    meeting::<C>(grains, self.pairs[at], squeeze.overlap, found.normal, dt);
                 let (push, losses) =
                     law.push(&meeting, pressed, &self.pushes[at], &mut self.memory[at]);
                 self.pushes[at] = push;
@@ -102,6 +118,7 @@ impl<C: ContactLaw> Chunk<'_, C> {
         squeezes: &mut [Squeeze; BLOCK],
     ) -> usize {
         let mut count = 0;
+        let open = self.images.is_empty();
         let last = (first + BLOCK).min(self.pairs.len());
         for at in first..last {
             let pair = self.pairs[at];
@@ -109,7 +126,10 @@ impl<C: ContactLaw> Chunk<'_, C> {
                 &grains.spheres[pair[0] as usize],
                 &grains.spheres[pair[1] as usize],
             );
-            let (line, reach) = (a.centre - b.centre, a.radius + b.radius);
+            let (mut line, reach) = (a.centre - b.centre, a.radius + b.radius);
+            if !open {
+                line += self.shifts[self.images[at] as usize];
+            }
             let square = line.length_squared();
             if square < reach * reach {
                 let distance = square.sqrt();
@@ -124,7 +144,7 @@ impl<C: ContactLaw> Chunk<'_, C> {
                 count += 1;
             } else if self.pushes[at].touches() {
                 self.histories.forget(at);
-                let meeting = meeting(grains, pair, 0.0, line / square.sqrt(), dt);
+                let meeting = meeting::<C>(grains, pair, 0.0, line / square.sqrt(), dt);
                 let (push, losses) = law.push(
                     &meeting,
                     &Pressed::default(),
@@ -159,40 +179,41 @@ impl<C: ContactLaw> Contacts<C> {
 
     /// Evaluates the law for every pair.
     pub fn evaluate(&mut self, law: &C, grains: &Grains, dt: f64) {
-        if let [histories] = &mut self.histories[..] {
-            let (pairs, memory, pushes) = (
-                &self.list.pairs[..],
-                &mut self.memory[..],
-                &mut self.pushes[..],
-            );
-            let (histories, losses) = (&mut **histories, &mut self.chunks[0]);
+        let (list, shifts) = (&self.list, &grains.room.shifts());
+        let chunk = |at: usize, memory, pushes, histories: &mut Box<dyn Histories>, losses| {
+            let all = at * CHUNK..((at + 1) * CHUNK).min(list.pairs.len());
+            let images = list.images.get(all.clone()).unwrap_or_default();
+            let pairs = &list.pairs[all];
+            let histories = &mut **histories;
             Chunk::<C> {
                 pairs,
+                images,
+                shifts,
                 memory,
                 pushes,
                 histories,
                 losses,
             }
             .evaluate(law, grains, dt);
+        };
+        if let [histories] = &mut self.histories[..] {
+            chunk(
+                0,
+                &mut self.memory[..],
+                &mut self.pushes[..],
+                histories,
+                &mut self.chunks[0],
+            );
             return;
         }
-        self.list
-            .pairs
-            .par_chunks(CHUNK)
-            .zip(self.memory.par_chunks_mut(CHUNK))
+        self.memory
+            .par_chunks_mut(CHUNK)
             .zip(self.pushes.par_chunks_mut(CHUNK))
             .zip(self.histories.par_iter_mut())
             .zip(self.chunks.par_iter_mut())
-            .for_each(|((((pairs, memory), pushes), histories), losses)| {
-                let histories = &mut **histories;
-                Chunk::<C> {
-                    pairs,
-                    memory,
-                    pushes,
-                    histories,
-                    losses,
-                }
-                .evaluate(law, grains, dt);
+            .enumerate()
+            .for_each(|(at, (((memory, pushes), histories), losses))| {
+                chunk(at, memory, pushes, histories, losses);
             });
     }
 
@@ -205,7 +226,7 @@ impl<C: ContactLaw> Contacts<C> {
     /// Lists the pairs anew; histories go with their pairs. A pair that leaves the list is apart: what its contact
     /// dissipated by plastic flow is handed to its grains.
     pub fn relist(&mut self, grains: &mut Grains, skin: f64) {
-        let list = HalfList::new(&grains.spheres, skin);
+        let list = HalfList::within(&grains.room, &grains.spheres, skin);
         for (memory, &pair) in self.memory.iter().zip(&self.list.pairs) {
             if list.find(pair).is_none() {
                 pair.iter()
@@ -225,7 +246,8 @@ impl<C: ContactLaw> Contacts<C> {
             .iter()
             .map(|at| at.map_or_else(Push::default, |at| self.pushes[at]))
             .collect();
-        self.histories = self.model.chunks(&self.histories, &from, CHUNK);
+        let materials = |at: usize| list.pairs[at].map(|grain| grains.material(grain as usize));
+        self.histories = self.model.chunks(&self.histories, &from, CHUNK, &materials);
         self.spent = self.losses();
         self.chunks = vec![Losses::default(); list.pairs.len().div_ceil(CHUNK)];
         self.list = list;
@@ -265,6 +287,17 @@ impl<C: ContactLaw> Contacts<C> {
             }
         }
         (force, torque)
+    }
+
+    /// Line (m) from the second to the first centre of a pair, by the way on which they meet.
+    #[inline(always)]
+    #[must_use]
+    pub fn line(&self, index: usize, grains: &Grains) -> Vector {
+        let [a, b] = self.list.pairs[index].map(|grain| grains.spheres[grain as usize].centre);
+        match self.list.images.get(index) {
+            None => a - b,
+            Some(&image) => a - b + grains.room.shift(image),
+        }
     }
 
     /// Recoverable energy (J) of a pair, its law at full stiffness.

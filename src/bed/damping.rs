@@ -1,5 +1,6 @@
 //! Damping: a viscous force beside the normal law, for the vibration a particle keeps and DEM does not resolve.
 
+use super::law::Meeting;
 use crate::contact::pair::Pressed;
 use crate::tape::Keep;
 use parry3d::math::Vector;
@@ -12,12 +13,21 @@ pub trait Damping: Clone + Send + Sync + 'static {
     type Memory: Copy + Default + Send + Sync + PartialEq + Keep + Debug;
     /// Whether there is damping.
     const ACTIVE: bool;
+    /// Whether it depends on the materials of the contact.
+    const BY_MATERIAL: bool = false;
 
     /// Adds the damping of `approach` (m/s) to a normal `force` (N); the sum never pulls.
-    fn add_to(&self, force: &mut f64, approach: f64, pressed: &Pressed, mass: f64);
+    fn add_to(&self, force: &mut f64, approach: f64, pressed: &Pressed, meeting: &Meeting);
 
     /// Adds the damping of `slip` (m/s) to a tangential `force` (N) on a spring of `stiffness` (N/m), up to `limit` (N).
-    fn add_slip_to(&self, force: &mut Vector, slip: Vector, stiffness: f64, mass: f64, limit: f64);
+    fn add_slip_to(
+        &self,
+        force: &mut Vector,
+        slip: Vector,
+        stiffness: f64,
+        meeting: &Meeting,
+        limit: f64,
+    );
 
     /// Force of the law alone a step before, `total` being the whole normal force then.
     fn law_force(memory: &Self::Memory, total: f64) -> f64;
@@ -31,10 +41,10 @@ impl Damping for () {
     const ACTIVE: bool = false;
 
     #[inline(always)]
-    fn add_to(&self, _: &mut f64, _: f64, _: &Pressed, _: f64) {}
+    fn add_to(&self, _: &mut f64, _: f64, _: &Pressed, _: &Meeting) {}
 
     #[inline(always)]
-    fn add_slip_to(&self, _: &mut Vector, _: Vector, _: f64, _: f64, _: f64) {}
+    fn add_slip_to(&self, _: &mut Vector, _: Vector, _: f64, _: &Meeting, _: f64) {}
 
     #[inline(always)]
     fn law_force((): &(), total: f64) -> f64 {
@@ -79,16 +89,23 @@ impl Damping for Viscous {
     const ACTIVE: bool = true;
 
     #[inline(always)]
-    fn add_to(&self, force: &mut f64, approach: f64, pressed: &Pressed, mass: f64) {
+    fn add_to(&self, force: &mut f64, approach: f64, pressed: &Pressed, meeting: &Meeting) {
         if *force > 0.0 {
-            let dashpot = self.factor * (mass * pressed.stiffness).sqrt() * approach;
+            let dashpot = self.factor * (meeting.mass * pressed.stiffness).sqrt() * approach;
             *force = (*force + dashpot).max(0.0);
         }
     }
 
     #[inline(always)]
-    fn add_slip_to(&self, force: &mut Vector, slip: Vector, stiffness: f64, mass: f64, limit: f64) {
-        let damped = *force - slip * (self.factor * (mass * stiffness).sqrt());
+    fn add_slip_to(
+        &self,
+        force: &mut Vector,
+        slip: Vector,
+        stiffness: f64,
+        meeting: &Meeting,
+        limit: f64,
+    ) {
+        let damped = *force - slip * (self.factor * (meeting.mass * stiffness).sqrt());
         let size = damped.length_squared();
         *force = if size > limit * limit {
             damped * (limit / size.sqrt())

@@ -101,6 +101,8 @@ pub trait Tangential: Clone + Send + Sync + 'static {
     type Memory: Copy + Default + Send + Sync + PartialEq + Keep + Debug;
     /// Whether there is a tangential force.
     const ACTIVE: bool;
+    /// Whether it depends on the materials of the contact.
+    const BY_MATERIAL: bool = false;
 
     /// Force against `slip` (m/s) under the normal `force` (N).
     fn pull(
@@ -113,7 +115,7 @@ pub trait Tangential: Clone + Send + Sync + 'static {
     ) -> Pull;
 
     /// Largest tangential force (N) under the normal `force` (N).
-    fn limit(&self, force: f64) -> f64;
+    fn limit(&self, force: f64, meeting: &Meeting) -> f64;
 
     /// Makes the spring `factor` times as stiff as the material says.
     fn soften(&mut self, factor: f64);
@@ -132,7 +134,7 @@ impl Tangential for () {
     }
 
     #[inline(always)]
-    fn limit(&self, _: f64) -> f64 {
+    fn limit(&self, _: f64, _: &Meeting) -> f64 {
         0.0
     }
 
@@ -146,42 +148,71 @@ impl Tangential for () {
 
 /// Mindlin's no-slip stiffness with Coulomb's limit.
 ///
-/// $$ \dot T = -k_t \dot s, \quad k_t = 8 G^* a, \quad \frac{1}{G^*} = n \frac{2 - \nu}{G}, \quad |T| \le \mu F $$
+/// $$ \dot T = -k_t \dot s, \quad k_t = 8 G^* a, \quad \frac{1}{G^*} = \sum_i \frac{2 - \nu_i}{G_i}, \quad |T| \le \mu F $$
 ///
 /// | symbol | unit | meaning |
 /// |---|---|---|
 /// | s | m | slip at the point of contact |
 /// | a | m | contact radius of the normal law |
-/// | n | 1 | deformable sides: 2 for two grains, 1 for a grain on a rigid surface |
+/// | i | | deformable sides: two grains, or one grain on a rigid surface |
 /// | mu | 1 | friction coefficient |
 ///
 /// Source: Mindlin 1949; Johnson 1985, section 7.2 (no slip). Micro-slip before gross sliding is left out, as usual in DEM.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mindlin {
     friction: f64,
-    /// $8 G / (2 - \nu)$ of one side, Pa.
-    stiffness: f64,
+    /// $8 G^*$ of two grains and of a grain on a surface, Pa.
+    stiffness: [f64; 2],
     /// Part of that stiffness in use.
     factor: f64,
 }
 
 impl Mindlin {
-    /// Law of grains of `material` with friction coefficient `friction`.
+    /// Law of grains of `material` with friction coefficient `friction`, among rigid bodies.
     #[must_use]
     pub fn new(material: &Material, friction: f64) -> Self {
-        let shear = material.young_modulus / (2.0 * (1.0 + material.poisson_ratio));
         Self {
             friction,
-            stiffness: 8.0 * shear / (2.0 - material.poisson_ratio),
+            stiffness: [
+                shear_stiffness([Some(material); 2]),
+                shear_stiffness([Some(material), None]),
+            ],
             factor: 1.0,
         }
     }
 
-    /// Stiffness k_t (N/m) at contact radius `a` (m) with `sides` deformable sides.
+    /// Law of contacts between two materials only, `None` being rigid.
+    #[must_use]
+    pub fn between(materials: [Option<&Material>; 2], friction: f64) -> Self {
+        Self {
+            friction,
+            stiffness: [shear_stiffness(materials); 2],
+            factor: 1.0,
+        }
+    }
+
+    /// Stiffness k_t (N/m) at contact radius `a` (m).
     #[inline(always)]
     #[must_use]
-    pub fn stiffness(&self, a: f64, sides: f64) -> f64 {
-        self.stiffness * self.factor / sides * a
+    pub fn stiffness(&self, a: f64, meeting: &Meeting) -> f64 {
+        self.stiffness[usize::from(meeting.with_surface())] * self.factor * a
+    }
+}
+
+/// $8 G^*$ (Pa) of two sides, rigid if `None`; 0 if both are.
+fn shear_stiffness(sides: [Option<&Material>; 2]) -> f64 {
+    let compliance: f64 = sides
+        .into_iter()
+        .flatten()
+        .map(|side| {
+            let shear = side.young_modulus / (2.0 * (1.0 + side.poisson_ratio));
+            (2.0 - side.poisson_ratio) / shear
+        })
+        .sum();
+    if compliance > 0.0 {
+        8.0 / compliance
+    } else {
+        0.0
     }
 }
 
@@ -199,7 +230,7 @@ impl Tangential for Mindlin {
         memory: &mut Slider,
     ) -> Pull {
         let stiffness = if force > 0.0 {
-            self.stiffness(pressed.contact_radius, meeting.sides())
+            self.stiffness(pressed.contact_radius, meeting)
         } else {
             0.0
         };
@@ -207,7 +238,7 @@ impl Tangential for Mindlin {
             slip * meeting.dt,
             meeting.normal,
             stiffness,
-            self.limit(force),
+            self.friction * force,
         );
         Pull {
             force: memory.load,
@@ -218,7 +249,7 @@ impl Tangential for Mindlin {
     }
 
     #[inline(always)]
-    fn limit(&self, force: f64) -> f64 {
+    fn limit(&self, force: f64, _: &Meeting) -> f64 {
         self.friction * force
     }
 
@@ -238,6 +269,8 @@ pub trait Rolling: Clone + Send + Sync + 'static {
     type Memory: Copy + Default + Send + Sync + PartialEq + Keep + Debug;
     /// Whether there is a moment.
     const ACTIVE: bool;
+    /// Whether it depends on the materials of the contact.
+    const BY_MATERIAL: bool = false;
 
     /// Updates the moment under the normal `force` (N); returns the energy dissipated, J.
     fn resist(
@@ -294,12 +327,21 @@ pub struct RollingSpring {
 }
 
 impl RollingSpring {
-    /// Resistance of grains of `material` with rolling friction coefficient `resistance`.
+    /// Resistance of grains of `material` with rolling friction coefficient `resistance`, among rigid bodies.
     #[must_use]
     pub fn new(material: &Material, resistance: f64) -> Self {
         Self {
             resistance,
             shear: Mindlin::new(material, 0.0),
+        }
+    }
+
+    /// Resistance of contacts between two materials only, `None` being rigid.
+    #[must_use]
+    pub fn between(materials: [Option<&Material>; 2], resistance: f64) -> Self {
+        Self {
+            resistance,
+            shear: Mindlin::between(materials, 0.0),
         }
     }
 }
@@ -314,10 +356,7 @@ impl Rolling for RollingSpring {
         let relative = meeting.spins[0] - meeting.spins[1];
         let rolling = relative - meeting.normal * relative.dot(meeting.normal);
         let stiffness = if force > 0.0 {
-            self.shear
-                .stiffness(pressed.contact_radius, meeting.sides())
-                * radius
-                * radius
+            self.shear.stiffness(pressed.contact_radius, meeting) * radius * radius
         } else {
             0.0
         };

@@ -1,5 +1,6 @@
 //! Grains: spheres as columns, packed so that one contact reads one cache line of each.
 
+use super::periodic::Periodic;
 use parry3d::math::Vector;
 use std::f64::consts::PI;
 
@@ -46,6 +47,10 @@ pub struct Grains {
     pub plastic: Vec<f64>,
     /// Name of each grain, kept when the order changes.
     pub ids: Vec<u32>,
+    /// Material of each grain, as an index; empty while all grains are of material 0.
+    pub materials: Vec<u8>,
+    /// Sides of the room.
+    pub room: Periodic,
 }
 
 impl Grains {
@@ -63,6 +68,36 @@ impl Grains {
             inverse_inertia: 1.0 / (0.4 * mass * radius * radius),
         });
         self.plastic.push(0.0);
+        if !self.materials.is_empty() {
+            self.materials.push(0);
+        }
+    }
+
+    /// Adds a solid sphere of another material than the first one.
+    pub fn add_of(&mut self, material: u8, centre: Vector, radius: f64, density: f64) {
+        self.materials.resize(self.len(), 0);
+        self.add(centre, radius, density);
+        self.materials.resize(self.len() - 1, 0);
+        self.materials.push(material);
+    }
+
+    /// Material of a grain, as an index.
+    #[inline(always)]
+    #[must_use]
+    pub fn material(&self, grain: usize) -> u8 {
+        self.materials.get(grain).copied().unwrap_or(0)
+    }
+
+    /// Brings grains that left through a periodic side back on the other; returns the energy (J) they gain in
+    /// `gravity` (m/s2) by it.
+    pub fn reenter(&mut self, gravity: Vector) -> f64 {
+        let mut gained = 0.0;
+        for (sphere, motion) in self.spheres.iter_mut().zip(&self.motions) {
+            let centre = self.room.inside(sphere.centre);
+            gained -= gravity.dot(centre - sphere.centre) / motion.inverse_mass;
+            sphere.centre = centre;
+        }
+        gained
     }
 
     /// Number of grains.
@@ -116,5 +151,8 @@ impl Grains {
         pick(&mut self.spins, old);
         pick(&mut self.plastic, old);
         pick(&mut self.ids, old);
+        if !self.materials.is_empty() {
+            pick(&mut self.materials, old);
+        }
     }
 }

@@ -34,6 +34,9 @@ pub struct Meeting {
     pub mass: f64,
     /// Time step, s.
     pub dt: f64,
+    /// Materials, as indices; [`super::mixture::RIGID`] for a body without one. Told only to laws that ask
+    /// ([`ContactLaw::BY_MATERIAL`]).
+    pub materials: [u8; 2],
 }
 
 /// What a contact does to its bodies.
@@ -49,11 +52,11 @@ pub struct Push {
 }
 
 impl Meeting {
-    /// Deformable sides: two grains, or one grain on a surface.
+    /// Whether the second body is a surface, not a grain.
     #[inline(always)]
     #[must_use]
-    pub fn sides(&self) -> f64 {
-        if self.radii[1].is_finite() { 2.0 } else { 1.0 }
+    pub fn with_surface(&self) -> bool {
+        self.radii[1].is_infinite()
     }
 
     /// Radius of curvature of the gap, m: $1/R_e = 1/R_1 + 1/R_2$.
@@ -99,6 +102,8 @@ pub trait ContactLaw: Clone + Send + Sync + 'static {
     type Memory: Copy + Default + Send + Sync + PartialEq + Keep + Debug + 'static;
     /// Whether the law can turn bodies.
     const ROTATES: bool;
+    /// Whether the law asks for the materials of a meeting.
+    const BY_MATERIAL: bool;
 
     /// Push of this step, and the energy dissipated since the push of the step before, `before`.
     fn push(
@@ -167,6 +172,7 @@ impl<D, T, R> Law<D, T, R> {
 impl<D: Damping, T: Tangential, R: Rolling> ContactLaw for Law<D, T, R> {
     type Memory = Memory<D::Memory, T::Memory, R::Memory>;
     const ROTATES: bool = T::ACTIVE || R::ACTIVE;
+    const BY_MATERIAL: bool = D::BY_MATERIAL || T::BY_MATERIAL || R::BY_MATERIAL;
 
     #[inline(always)]
     fn push(
@@ -186,7 +192,7 @@ impl<D: Damping, T: Tangential, R: Rolling> ContactLaw for Law<D, T, R> {
         let passing = m.velocity + m.normal * approach;
         let mut normal_force = pressed.force;
         self.damping
-            .add_to(&mut normal_force, approach, &pressed, m.mass);
+            .add_to(&mut normal_force, approach, &pressed, m);
 
         let arms = lever_arms(m, &pressed);
         let mut tangential = Vector::ZERO;
@@ -202,9 +208,9 @@ impl<D: Damping, T: Tangential, R: Rolling> ContactLaw for Law<D, T, R> {
             losses.friction = pull.loss;
             spring_work = pull.work;
             tangential = pull.force;
-            let limit = self.tangential.limit(normal_force);
+            let limit = self.tangential.limit(normal_force, m);
             self.damping
-                .add_slip_to(&mut tangential, slip, pull.stiffness, m.mass, limit);
+                .add_slip_to(&mut tangential, slip, pull.stiffness, m, limit);
         }
         if R::ACTIVE {
             losses.rolling = self

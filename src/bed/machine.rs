@@ -5,6 +5,7 @@
 //! and times stay SI. Everything that comes out is SI.
 
 use super::bodies::{Body, Mobility};
+use super::mixture::RIGID;
 use crate::tape::keep_fields;
 use crate::{Error, Result};
 use parry3d::math::{Pose, Vector};
@@ -66,6 +67,8 @@ pub struct Machine {
     pub stations: Vec<Station>,
     /// Surfaces, one for each body.
     pub surfaces: Vec<Surface>,
+    /// Material of each body, [`RIGID`] unless told otherwise.
+    pub materials: Vec<u8>,
 }
 
 impl Machine {
@@ -84,6 +87,7 @@ impl Machine {
             unit,
             stations: Vec::new(),
             surfaces: Vec::new(),
+            materials: Vec::new(),
         };
         for body in bodies {
             machine.add(body)?;
@@ -137,6 +141,7 @@ impl Machine {
             driven: matches!(body.mobility, Mobility::Driven { .. }),
         });
         self.surfaces.push(Surface { shape, pose });
+        self.materials.push(RIGID);
         self.handles.push(handle);
         self.bodies.push(body);
         Ok(())

@@ -213,7 +213,7 @@ impl<C: ContactLaw> Bed<C> {
         {
             let [i, j] = self.contacts.list.pairs[index].map(|grain| grain as usize);
             let squeeze = self.squeeze_of(index);
-            let line = self.grains.spheres[i].centre - self.grains.spheres[j].centre;
+            let line = self.contacts.line(index, &self.grains);
             let force = push.force.length();
             if force > 0.0 {
                 packing.contacts += 1;

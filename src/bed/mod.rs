@@ -1,6 +1,7 @@
 //! Bed of grains: a discrete-element run of many grains under a contact law, among bodies moved by rapier.
 
 pub mod bodies;
+pub mod by_material;
 pub mod compose;
 pub mod contacts;
 pub mod damping;
@@ -11,10 +12,12 @@ pub mod law;
 pub mod lettering;
 pub mod machine;
 pub mod measure;
+pub mod mixture;
 pub mod neighbours;
 pub mod normals;
 pub mod output;
 mod patches;
+pub mod periodic;
 pub mod protocol;
 pub mod render;
 mod restart;

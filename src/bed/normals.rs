@@ -8,7 +8,7 @@ use crate::tape::{Keep, Tape};
 use std::any::Any;
 
 /// Relative step back from the present overlap at which the unloading stiffness is read.
-const UNLOADING_PROBE: f64 = 1e-6;
+pub(super) const UNLOADING_PROBE: f64 = 1e-6;
 
 /// A contact to be pressed.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -51,12 +51,14 @@ pub trait Histories: Send + Sync {
 
 /// Makes histories of one law.
 pub trait NormalModel: Send + Sync {
-    /// Chunks of `chunk` contacts; contact `k` continues contact `from[k]` of `old`, or begins.
+    /// Chunks of `chunk` contacts; contact `k` continues contact `from[k]` of `old`, or begins, between bodies of
+    /// `materials(k)`.
     fn chunks(
         &self,
         old: &[Box<dyn Histories>],
         from: &[Option<usize>],
         chunk: usize,
+        materials: &dyn Fn(usize) -> [u8; 2],
     ) -> Vec<Box<dyn Histories>>;
 
     /// Largest flattening over radius the law's source supports.
@@ -77,6 +79,7 @@ impl<P: Press> NormalModel for Model<P> {
         old: &[Box<dyn Histories>],
         from: &[Option<usize>],
         chunk: usize,
+        _: &dyn Fn(usize) -> [u8; 2],
     ) -> Vec<Box<dyn Histories>> {
         let old: Vec<&Chunk<P>> = old
             .iter()

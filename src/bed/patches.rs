@@ -226,6 +226,7 @@ impl<C: ContactLaw> Situation<'_, C> {
             inverse_distance: 0.0,
             mass: 1.0 / (motion.inverse_mass + body.inverse_mass),
             dt: self.dt,
+            materials: [self.grains.material(grain), self.machine.materials[surface]],
         };
         let mut pressed = [Pressed::default()];
         if meeting.overlap > 0.0 {
@@ -310,6 +311,7 @@ impl<C: ContactLaw, const K: usize> Family<C, K> {
         candidates: Vec<[u32; 2]>,
         grains: &mut Grains,
         model: &dyn NormalModel,
+        surfaces: &[u8],
     ) {
         let mut patches = vec![Patch::default(); candidates.len() * K];
         let mut from = vec![None; candidates.len() * K];
@@ -326,7 +328,11 @@ impl<C: ContactLaw, const K: usize> Family<C, K> {
                 }
             }
         }
-        self.histories = model.chunks(&self.histories, &from, CHUNK * K);
+        let materials = |at: usize| {
+            let [grain, surface] = candidates[at / K].map(|index| index as usize);
+            [grains.material(grain), surfaces[surface]]
+        };
+        self.histories = model.chunks(&self.histories, &from, CHUNK * K, &materials);
         self.spent = self.losses();
         self.tallies = vec![Tally::default(); candidates.len().div_ceil(CHUNK)];
         self.start = vec![0; grains.len() + 1];

@@ -8,6 +8,7 @@ use super::friction::Slider;
 use super::grains::{Grains, Motion, Sphere, Spin};
 use super::law::{ContactLaw, Losses, Memory, Push};
 use super::machine::{Load, Machine};
+use super::mixture::RIGID;
 use super::neighbours::HalfList;
 use super::normals::NormalModel;
 use super::patches::{CHUNK as CANDIDATES, Family, Patch, Tally};
@@ -23,16 +24,19 @@ keep_fields!(Slider: load, stiffness);
 keep_fields!(Sphere: centre, radius);
 keep_fields!(Motion: velocity, inverse_mass);
 keep_fields!(Spin: rate, inverse_inertia);
-keep_fields!(Grains: spheres, motions, spins, plastic, ids);
+keep_fields!(Grains: spheres, motions, spins, plastic, ids, materials);
 keep_fields!(Losses: friction, rolling, damping);
 keep_fields!(impl [D: Keep, T: Keep, R: Keep] Memory<D, T, R>: damping, tangential, rolling, work);
 keep_fields!(Push: force, couple, arms);
 keep_fields!(Load: force, torque);
-keep_fields!(HalfList: pairs, start, reverse_start, reverse);
+keep_fields!(HalfList: pairs, start, reverse_start, reverse, images);
 keep_fields!(impl [M: Keep] Patch<M>: memory, push, point, normal);
 keep_fields!(Tally: losses, left_out);
 keep_fields!(Outside: driven, stiffening);
 keep_fields!(Listed: centres, poses, moved, due);
+
+/// Materials of contacts that are about to be loaded: they know their own.
+const UNKNOWN: fn(usize) -> [u8; 2] = |_| [RIGID; 2];
 
 impl<C: ContactLaw> Keep for Contacts<C> {
     fn save(&self, tape: &mut Tape) {
@@ -49,7 +53,7 @@ impl<C: ContactLaw> Keep for Contacts<C> {
         self.memory.load(tape)?;
         self.pushes.load(tape)?;
         let none = vec![None; self.list.pairs.len()];
-        self.histories = self.model.chunks(&[], &none, PAIRS);
+        self.histories = self.model.chunks(&[], &none, PAIRS, &UNKNOWN);
         self.histories
             .iter_mut()
             .try_for_each(|chunk| chunk.load(tape))?;
@@ -85,7 +89,7 @@ impl<C: ContactLaw, const K: usize> Family<C, K> {
         self.start.load(tape)?;
         self.patches.load(tape)?;
         let none = vec![None; self.patches.len()];
-        self.histories = model.chunks(&[], &none, CANDIDATES * K);
+        self.histories = model.chunks(&[], &none, CANDIDATES * K, &UNKNOWN);
         self.histories
             .iter_mut()
             .try_for_each(|chunk| chunk.load(tape))?;

@@ -16,7 +16,7 @@ const CHUNK: usize = 256;
 /// Work done on the bed from outside, J.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Outside {
-    /// By driven bodies on grains.
+    /// By driven bodies on grains, and by bringing grains back through periodic sides against gravity.
     pub driven: f64,
     /// By changes of the law while grains touch.
     pub stiffening: f64,
@@ -131,7 +131,7 @@ impl<C: ContactLaw> Bed<C> {
             return Ok(());
         }
         if self.relist_due()? {
-            self.relist();
+            self.relist()?;
         }
         let (grains, machine, dt) = (&self.grains, &self.machine, self.dt);
         let (contacts, surfaces, law) = (&mut self.contacts, &mut self.surfaces, &self.law);
@@ -191,7 +191,12 @@ impl<C: ContactLaw> Bed<C> {
         }
     }
 
-    fn relist(&mut self) {
+    fn relist(&mut self) -> Result<()> {
+        if !self.grains.room.is_open() {
+            let reach = 2.0 * self.grains.largest_radius() + self.skin;
+            self.grains.room.admit(reach)?;
+            self.outside.driven += self.grains.reenter(self.gravity);
+        }
         self.contacts.relist(&mut self.grains, self.skin);
         self.surfaces
             .relist(&mut self.grains, &self.machine, self.skin);
@@ -201,6 +206,7 @@ impl<C: ContactLaw> Bed<C> {
             moved: vec![0.0; self.grains.len().div_ceil(CHUNK)],
             due: false,
         };
+        Ok(())
     }
 
     /// Sums the loads on bodies; books what driven bodies spent since the last step.
@@ -326,11 +332,11 @@ impl<C: ContactLaw> Bed<C> {
     /// A listed pair as its normal law sees it; the overlap is negative if it is apart.
     #[must_use]
     pub fn squeeze_of(&self, pair: usize) -> Squeeze {
-        let [a, b] =
-            self.contacts.list.pairs[pair].map(|grain| self.grains.spheres[grain as usize]);
+        let radii =
+            self.contacts.list.pairs[pair].map(|grain| self.grains.spheres[grain as usize].radius);
         Squeeze {
-            overlap: a.radius + b.radius - (a.centre - b.centre).length(),
-            radii: [a.radius, b.radius],
+            overlap: radii[0] + radii[1] - self.contacts.line(pair, &self.grains).length(),
+            radii,
         }
     }
 }

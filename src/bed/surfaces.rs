@@ -76,8 +76,9 @@ impl<C: ContactLaw> Surfaces<C> {
                 }
             }
         }
-        self.solids.relist(solids, grains, &*self.model);
-        self.meshes.relist(meshes, grains, &*self.model);
+        let materials = &machine.materials;
+        self.solids.relist(solids, grains, &*self.model, materials);
+        self.meshes.relist(meshes, grains, &*self.model, materials);
     }
 
     /// Energy dissipated so far, plastic flow apart.

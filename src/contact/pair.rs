@@ -1,24 +1,29 @@
 //! Pair: flattening laws pressed against each other, or one against a rigid surface.
 //!
 //! Two touching bodies are two flattening laws in series: they share one force, and their flattenings add up to the
-//! overlap of the undeformed spheres,
+//! overlap of the undeformed bodies,
 //!
 //! $$ \delta = \delta_1 + \delta_2, \qquad F_1(\delta_1) = F_2(\delta_2) = F . $$
 //!
+//! The surface they share is curved, so that neither is pressed by a plane; what flattens a side is its curvature
+//! against that surface. With the surface where Hertz has it, side $i$ is pressed like a sphere on a plane whose radius is
+//!
+//! $$ R_i' = R_e \left(1 + \frac{E_i^*}{E_j^*}\right), \qquad \frac{1}{R_e} = \frac{1}{R_1} + \frac{1}{R_2}, $$
+//!
+//! and the pair is Hertz's for any radii and moduli (Johnson 1985, section 4.2: $a^2 = R_e \delta = R_i' \delta_i$). Equal
+//! spheres have $R_i' = R$, a rigid partner gives $R_i' = R_e$. With each side's own radius instead, a sphere on a large
+//! one of its own material would be pressed as on a rigid wall, twice as stiff as it is.
+//!
 //! | type | bodies | each side |
 //! |---|---|---|
-//! | [`Flat`] | a grain on a rigid surface | $\delta_1 = \delta$ |
-//! | [`Twins`] | two grains of one material and one radius | $\delta_1 = \delta_2 = \delta/2$, by symmetry |
-//! | [`Series`] | two grains of one material and any radii | solved, each side with its own history |
+//! | [`Flat`] | a grain on a rigid surface | $\delta_1 = \delta$, $R' = R$ |
+//! | [`Twins`] | two grains of one material and one radius | $\delta_i = \delta/2$, $R' = R$ |
+//! | [`Alike`] | two grains of one material and any radii | $\delta_i = \delta/2$, $R' = 2 R_e$ |
+//! | [`Side`] twice | bodies of two materials | solved by [`balance`], each side with its own history |
 
 use super::NormalLaw;
-use crate::tape::{Keep, keep_fields};
+use crate::tape::Keep;
 use std::fmt::Debug;
-
-/// Relative mismatch of the two forces that counts as rounding.
-const FORCE_ROUNDING: f64 = 1e-14;
-/// Iterations of the safeguarded Newton search; bisection alone ends within this many halvings of a `f64` interval.
-const MAX_SEARCH: usize = 64;
 
 /// State of a pressed contact, SI units.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -52,7 +57,12 @@ pub trait Press: Clone + Send + Sync + 'static {
 
 /// Contact radius (m) of a flattened side: what the law states, else that of a sphere cut by a plane, $a^2 = R\delta$.
 #[inline(always)]
-fn contact_radius<L: NormalLaw>(law: &L, x: f64, radius: f64, history: &L::History) -> f64 {
+pub(crate) fn contact_radius<L: NormalLaw>(
+    law: &L,
+    x: f64,
+    radius: f64,
+    history: &L::History,
+) -> f64 {
     radius
         * law
             .contact_radius(x, history)
@@ -139,118 +149,124 @@ impl<L: NormalLaw> Press for Twins<L> {
     }
 }
 
-/// Two grains of one material and any radii: the flattenings that balance the forces are solved for.
+/// Two grains of one material and any radii: each side takes half the overlap with the radius $2 R_e$.
+///
+/// ```
+/// use impactlaw::contact::pair::{Alike, Press};
+/// use impactlaw::theory::hertz::Hertz;
+/// // Hertz on two spheres: F = 4/3 (E*/2) sqrt(Re) d^1.5
+/// let (modulus, effective, d) = (7e10, 0.75e-3, 1e-6f64);
+/// let pair = Alike(Hertz::new(modulus)).press(d, [1e-3, 3e-3], &mut ());
+/// let hertz = 2.0 / 3.0 * modulus * f64::sqrt(effective) * d.powf(1.5);
+/// assert!((pair.force / hertz - 1.0).abs() < 1e-13);
+/// ```
 #[derive(Debug, Clone, PartialEq)]
-pub struct Series<L>(pub L);
+pub struct Alike<L>(pub L);
 
-/// What a [`Series`] contact remembers.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Sides<H> {
-    /// History of each side.
-    pub histories: [H; 2],
-    /// Share of the overlap the first side took last: where the next search starts (0: none yet).
-    pub share: f64,
+/// Radius of the sphere whose flattening on a plane is that of each side, $2 R_e$.
+#[inline(always)]
+fn radius_of_sides([a, b]: [f64; 2]) -> f64 {
+    2.0 * a * b / (a + b)
 }
 
-keep_fields!(impl [H: Keep] Sides<H>: histories, share);
+impl<L: NormalLaw> Press for Alike<L> {
+    type History = L::History;
 
-/// One side of a series contact at a trial flattening.
-struct Trial<H> {
-    force: f64,
-    stiffness: f64,
-    history: H,
-}
-
-impl<L: NormalLaw> Series<L> {
-    fn side(&self, flattening: f64, radius: f64, history: &L::History) -> Trial<L::History> {
-        let mut history = *history;
-        let x = flattening / radius;
-        let force = radius * radius * self.0.force(x, &mut history);
-        Trial {
-            force,
-            stiffness: radius * self.0.stiffness(x, &history),
-            history,
-        }
-    }
-
-    /// Flattening of the first side at which both forces agree: Newton kept inside a bracket that bisection can finish.
-    fn balance(&self, overlap: f64, radii: [f64; 2], sides: &Sides<L::History>) -> f64 {
-        let (mut low, mut high) = (0.0, overlap);
-        let mut first = if sides.share > 0.0 {
-            sides.share * overlap
-        } else {
-            0.5 * overlap
-        };
-        for _ in 0..MAX_SEARCH {
-            let a = self.side(first, radii[0], &sides.histories[0]);
-            let b = self.side(overlap - first, radii[1], &sides.histories[1]);
-            let excess = a.force - b.force;
-            if excess.abs() <= FORCE_ROUNDING * a.force.max(b.force) {
-                break;
-            }
-            if excess > 0.0 {
-                high = first;
-            } else {
-                low = first;
-            }
-            let newton = first - excess / (a.stiffness + b.stiffness);
-            let next = if newton > low && newton < high {
-                newton
-            } else {
-                0.5 * (low + high)
-            };
-            if next == first {
-                break;
-            }
-            first = next;
-        }
-        first
-    }
-}
-
-impl<L: NormalLaw> Press for Series<L> {
-    type History = Sides<L::History>;
-
-    fn press(&self, overlap: f64, radii: [f64; 2], sides: &mut Self::History) -> Pressed {
-        if overlap <= 0.0 {
-            return Pressed::default();
-        }
-        let first = self.balance(overlap, radii, sides);
-        let a = self.side(first, radii[0], &sides.histories[0]);
-        let b = self.side(overlap - first, radii[1], &sides.histories[1]);
-        *sides = Sides {
-            histories: [a.history, b.history],
-            share: first / overlap,
-        };
-        let both = a.stiffness + b.stiffness;
+    #[inline(always)]
+    fn press(&self, overlap: f64, radii: [f64; 2], history: &mut L::History) -> Pressed {
+        let radius = radius_of_sides(radii);
+        let half = 0.5 * overlap;
+        let x = half / radius;
+        let force = radius * radius * self.0.force(x, history);
         Pressed {
-            force: 0.5 * (a.force + b.force),
-            stiffness: if both > 0.0 {
-                a.stiffness * b.stiffness / both
-            } else {
-                0.0
-            },
-            contact_radius: contact_radius(&self.0, first / radii[0], radii[0], &a.history),
-            flattening: [first, overlap - first],
+            force,
+            stiffness: 0.5 * radius * self.0.stiffness(x, history),
+            contact_radius: contact_radius(&self.0, x, radius, history),
+            flattening: [half, half],
         }
     }
 
-    fn elastic_energy(&self, overlap: f64, radii: [f64; 2], sides: &Self::History) -> f64 {
-        let first = sides.share * overlap;
-        let energy = |radius: f64, flattening: f64, history| {
-            radius.powi(3) * self.0.elastic_energy(flattening / radius, history)
-        };
-        energy(radii[0], first, &sides.histories[0])
-            + energy(radii[1], overlap - first, &sides.histories[1])
+    fn elastic_energy(&self, overlap: f64, radii: [f64; 2], history: &L::History) -> f64 {
+        let radius = radius_of_sides(radii);
+        2.0 * radius.powi(3) * self.0.elastic_energy(0.5 * overlap / radius, history)
     }
 
-    /// Both sides have their largest flattening at the same time, that of the largest force.
-    fn largest_overlap(&self, radii: [f64; 2], sides: &Self::History) -> Option<f64> {
-        let [first, second] = &sides.histories;
-        Some(self.0.largest(first)? * radii[0] + self.0.largest(second)? * radii[1])
+    fn largest_overlap(&self, radii: [f64; 2], history: &L::History) -> Option<f64> {
+        let radius = radius_of_sides(radii);
+        self.0.largest(history).map(|x| 2.0 * x * radius)
     }
 
     fn valid_to(&self) -> f64 {
         self.0.valid_to()
+    }
+}
+
+/// Relative mismatch of the two forces at which the search ends: what is left of it enters the force and the energy
+/// squared.
+const MISMATCH: f64 = 1e-9;
+/// Iterations of the safeguarded Newton search; bisection alone ends within this many halvings of a `f64` interval.
+const MAX_SEARCH: usize = 64;
+
+/// One side of a contact between two materials, at a trial flattening.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Side {
+    /// Force, N.
+    pub force: f64,
+    /// Stiffness, N/m.
+    pub stiffness: f64,
+}
+
+/// Flattening (m) of the first side at which both sides carry one force, with the state of both there: Newton from
+/// `guess`, kept inside a bracket that bisection can finish. A guess from the step before is off by the little the
+/// share has changed since, so that one or two trials end the search.
+pub fn balance(
+    overlap: f64,
+    guess: f64,
+    mut first: impl FnMut(f64) -> Side,
+    mut second: impl FnMut(f64) -> Side,
+) -> (f64, [Side; 2]) {
+    let (mut low, mut high) = (0.0, overlap);
+    let mut at = guess;
+    let mut sides = [first(at), second(overlap - at)];
+    for _ in 0..MAX_SEARCH {
+        let [a, b] = sides;
+        let excess = a.force - b.force;
+        if excess.abs() <= MISMATCH * a.force.max(b.force) {
+            break;
+        }
+        if excess > 0.0 {
+            high = at;
+        } else {
+            low = at;
+        }
+        let newton = at - excess / (a.stiffness + b.stiffness);
+        let next = if newton > low && newton < high {
+            newton
+        } else {
+            0.5 * (low + high)
+        };
+        if next == at {
+            break;
+        }
+        at = next;
+        sides = [first(at), second(overlap - at)];
+    }
+    (at, sides)
+}
+
+/// Force and stiffness of two sides in series, both to second order in what is left of their mismatch.
+#[must_use]
+pub fn in_series([a, b]: [Side; 2]) -> Side {
+    let both = a.stiffness + b.stiffness;
+    if both > 0.0 {
+        Side {
+            force: (a.force * b.stiffness + b.force * a.stiffness) / both,
+            stiffness: a.stiffness * b.stiffness / both,
+        }
+    } else {
+        Side {
+            force: 0.5 * (a.force + b.force),
+            stiffness: 0.0,
+        }
     }
 }
