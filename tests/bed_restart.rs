@@ -8,7 +8,7 @@ use impactlaw::bed::law::Law;
 use impactlaw::bed::machine::Machine;
 use impactlaw::bed::normals::Model;
 use impactlaw::bed::step::{Bed, Normals, Parts};
-use impactlaw::contact::pair::{Flat, Series};
+use impactlaw::contact::pair::{Alike, Flat};
 use impactlaw::material::{Flow, Material, YIELD_PRESSURE_RATIO};
 use impactlaw::tape::{Keep, Tape};
 use impactlaw::theory::thornton::Thornton;
@@ -111,7 +111,7 @@ fn bed() -> Frictional {
     let gravity = Vector::new(0.0, 0.0, -9.81);
     let law = Thornton::of(&material, YIELD_PRESSURE_RATIO).unwrap();
     let normals = Normals {
-        pair: Box::new(Model(Series(law))),
+        pair: Box::new(Model(Alike(law))),
         wall: Box::new(Model(Flat(law))),
     };
     let effects = Law::new(
