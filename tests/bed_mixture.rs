@@ -210,14 +210,14 @@ fn a_bed_of_one_material_is_the_same_as_a_mixture() {
         Law::new(Viscous::new(0.8), Mindlin::new(&SOFT, 0.3), ()),
         normals,
         [0, 0],
-        400,
+        6000,
     );
     let materials = [(Theory::Thornton, SOFT), (Theory::Thornton, SOFT)];
     let law = mixed(&effects(|_, _| 0.3));
-    let two = bed(law, both(&mixture(&materials)), [0, 0], 400);
-    assert!(one.packing().contacts > 0 || one.packing().wall_contacts > 0);
+    let two = bed(law, both(&mixture(&materials)), [0, 0], 6000);
+    assert!(one.losses().damping > 0.0 && one.losses().friction > 0.0);
     for (a, b) in one.grains.spheres.iter().zip(&two.grains.spheres) {
-        assert!((a.centre - b.centre).length() < 1e-12 * RADIUS);
+        assert!((a.centre - b.centre).length() < 1e-9 * RADIUS);
     }
 }
 

@@ -172,7 +172,7 @@ fn it_does_not_matter_where_the_sides_are() {
     };
     let shift = Vector::new(3.3, 7.7, 0.0) * RADIUS;
     let (here, there) = (run(Vector::ZERO), run(shift));
-    assert!(here.packing().contacts > 10);
+    assert!(here.losses().damping > 0.0 && here.packing().contacts > 0);
     for (a, b) in here.grains.spheres.iter().zip(&there.grains.spheres) {
         let off = here.grains.room.shortest(b.centre - shift - a.centre);
         assert!(off.length() < 1e-9 * RADIUS, "{off:?}");

@@ -1,7 +1,7 @@
 //! Patches: the contacts of grains with one kind of surface, evaluated by chunks; each keeps its own history.
 
 use super::grains::Grains;
-use super::law::{ContactLaw, Losses, Meeting, Push};
+use super::law::{ContactLaw, Losses, Meeting};
 use super::machine::Machine;
 use super::normals::{Histories, NormalModel, Squeeze};
 pub use super::patch::{Held, Patch};
