@@ -7,11 +7,11 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use impactlaw::bed::damping::Viscous;
 use impactlaw::bed::friction::Mindlin;
 use impactlaw::bed::grains::Grains;
-use impactlaw::bed::insertion::Room;
 use impactlaw::bed::law::{ContactLaw, Law};
 use impactlaw::bed::machine::Machine;
 use impactlaw::bed::neighbours::Cells;
 use impactlaw::bed::normals::Model;
+use impactlaw::bed::room::Room;
 use impactlaw::bed::step::{Bed, Normals, Parts};
 use impactlaw::bed::time_step::rayleigh_time;
 use impactlaw::contact::NormalLaw;
@@ -72,12 +72,7 @@ fn packing() -> Grains {
 }
 
 fn bed<C: ContactLaw, L: NormalLaw>(effects: C, law: &L) -> Bed<C> {
-    let room = Room {
-        width: EDGE,
-        depth: EDGE,
-        height: 80e-3,
-        thickness: 4e-3,
-    };
+    let room = Room::open_box(EDGE, EDGE, 80e-3, 4e-3);
     let gravity = Vector::new(0.0, 0.0, -9.81);
     let mut grains = packing();
     grains.reorder(&Cells::new(&grains.spheres, 2.0 * RADIUS).order());

@@ -54,11 +54,11 @@ struct ParticleTable {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct MaterialTable {
-    density: Quantity<Density>,
-    young_modulus: Quantity<Pressure>,
-    poisson_ratio: f64,
-    yield_strength: Option<Quantity<Pressure>>,
-    hardening_modulus: Option<Quantity<Pressure>>,
+    pub(crate) density: Quantity<Density>,
+    pub(crate) young_modulus: Quantity<Pressure>,
+    pub(crate) poisson_ratio: f64,
+    pub(crate) yield_strength: Option<Quantity<Pressure>>,
+    pub(crate) hardening_modulus: Option<Quantity<Pressure>>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -180,26 +180,32 @@ impl Case {
 
 impl MaterialTable {
     pub(crate) fn check(self, document: &Document) -> Result<Material> {
-        let young_modulus = document.positive("material.young_modulus", self.young_modulus)?;
+        self.check_at(document, "material")
+    }
+
+    /// Checks the table whose dotted key is `at`.
+    pub(crate) fn check_at(self, document: &Document, at: &str) -> Result<Material> {
+        let key = |name: &str| format!("{at}.{name}");
+        let young_modulus = document.positive(&key("young_modulus"), self.young_modulus)?;
         Ok(Material {
-            density: document.positive("material.density", self.density)?,
+            density: document.positive(&key("density"), self.density)?,
             young_modulus,
             poisson_ratio: document.check(
-                "material.poisson_ratio",
+                &key("poisson_ratio"),
                 self.poisson_ratio,
                 |nu| (0.0..0.5).contains(&nu),
                 "must lie in [0, 0.5)",
             )?,
-            flow: self.flow(document, young_modulus)?,
+            flow: self.flow(document, at, young_modulus)?,
         })
     }
 
-    fn flow(&self, document: &Document, young_modulus: f64) -> Result<Option<Flow>> {
-        const HARDENING: &str = "material.hardening_modulus";
+    fn flow(&self, document: &Document, at: &str, young_modulus: f64) -> Result<Option<Flow>> {
+        let hardening = format!("{at}.hardening_modulus");
         let Some(yield_strength) = self.yield_strength else {
             return match self.hardening_modulus {
                 Some(_) => Err(document.reject(
-                    HARDENING,
+                    &hardening,
                     "needs a `yield_strength` beside it: without one the body is elastic",
                 )),
                 None => Ok(None),
@@ -210,13 +216,13 @@ impl MaterialTable {
             unit::engineering(young_modulus, "Pa", 4)
         );
         let yield_strength = document.check(
-            "material.yield_strength",
+            &format!("{at}.yield_strength"),
             yield_strength.si(),
             |y| y > 0.0 && y < young_modulus,
             &below_modulus,
         )?;
         let hardening_modulus = match self.hardening_modulus {
-            Some(h) => document.non_negative(HARDENING, h)?,
+            Some(h) => document.non_negative(&hardening, h)?,
             None => 0.0,
         };
         Ok(Some(Flow {

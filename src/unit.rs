@@ -56,6 +56,14 @@ dimensions! {
     Pressure, "a pressure", "70 GPa", si::Pressure;
     /// N.
     Force, "a force", "2.5 N", si::Force;
+    /// N m.
+    Torque, "a torque", "2.5 mN m", si::Torque;
+    /// Hz.
+    Frequency, "a frequency", "50 Hz", si::Frequency;
+    /// kg/s.
+    MassRate, "a mass rate", "5 g/s", si::MassRate;
+    /// J.
+    Energy, "an energy", "2 uJ", si::Energy;
     /// s.
     Time, "a time", "20 ms", si::Time;
 }
@@ -113,7 +121,8 @@ fn uom_spelling(text: &str) -> String {
     unit = unit
         .replace('2', "²")
         .replace('3', "³")
-        .replace("deg/", "°/");
+        .replace("deg/", "°/")
+        .replace("N m", "N · m");
     if unit == "deg" {
         unit = "°".to_owned();
     }

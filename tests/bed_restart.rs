@@ -1,11 +1,12 @@
 //! Restart: a bed taken up from a tape goes on with the same bits as one that was never stopped.
 
-use impactlaw::bed::bodies::{Body, Mobility, Solid};
+use impactlaw::bed::bodies::{Body, Freedom, Mobility, Solid};
 use impactlaw::bed::damping::Viscous;
 use impactlaw::bed::friction::{Mindlin, RollingSpring};
 use impactlaw::bed::grains::Grains;
 use impactlaw::bed::law::Law;
 use impactlaw::bed::machine::Machine;
+use impactlaw::bed::motion::Motion;
 use impactlaw::bed::normals::Model;
 use impactlaw::bed::step::{Bed, Normals, Parts};
 use impactlaw::contact::pair::{Alike, Flat};
@@ -61,24 +62,19 @@ fn bodies() -> Vec<Body> {
         Body::block(name, corner(low), corner(high))
     };
     let mut stirrer = block("stirrer", [0.3, 0.3, 0.1], [0.7, 0.35, 0.3]);
-    stirrer.mobility = Mobility::Driven {
+    stirrer.mobility = Mobility::Driven(Motion {
         velocity: Vector::new(0.0, 0.01, 0.0),
         spin: Vector::new(0.0, 0.0, 20.0),
-    };
+        ..Motion::default()
+    });
     let mut lid = block("lid", [0.0, 0.0, 1.2], [1.0, 1.0, 1.3]);
-    lid.mobility = Mobility::Free {
-        mass: 1e-3,
-        slide: Some(Vector::Z),
-    };
+    lid.mobility = Mobility::Free(Freedom::of_mass(1e-3).sliding(Vector::Z));
     let ball = Body {
         name: "ball".to_owned(),
         solid: Solid::Ball(3.0 * RADIUS),
         centre: Vector::new(0.5, 0.4, 1.0) * e,
         rotation: Rotation::IDENTITY,
-        mobility: Mobility::Free {
-            mass: 2e-4,
-            slide: None,
-        },
+        mobility: Mobility::Free(Freedom::of_mass(2e-4)),
     };
     vec![
         mesh_floor(),

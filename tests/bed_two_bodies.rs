@@ -1,6 +1,6 @@
 //! Two bodies in the bed against closed forms and against the 1-D rebound of the same law.
 
-use impactlaw::bed::bodies::{Body, Mobility, Solid};
+use impactlaw::bed::bodies::{Body, Freedom, Mobility, Solid};
 use impactlaw::bed::damping::Viscous;
 use impactlaw::bed::friction::Mindlin;
 use impactlaw::bed::grains::Grains;
@@ -355,7 +355,7 @@ fn oblique_rebounds_keep_spin_about_the_contact_lose_energy_and_recoil_at_medium
 #[test]
 fn a_free_body_takes_the_momentum_the_grain_loses() {
     let mass = 5.0 * MATERIAL.sphere_mass(RADIUS);
-    let machine = floor(Mobility::Free { mass, slide: None });
+    let machine = floor(Mobility::Free(Freedom::of_mass(mass)));
     let effects = Law::new((), Mindlin::new(&MATERIAL, 0.4), ());
     let law = Hertz::of(&MATERIAL);
     let mut grains = Grains::default();

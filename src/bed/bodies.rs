@@ -1,5 +1,6 @@
 //! Bodies: what is not a grain, as a scene describes it: shape, place and how it may move.
 
+use super::motion::Motion;
 use crate::{Error, Result};
 use parry3d::math::{Rotation, Vector};
 use parry3d::shape::{SharedShape, TriMeshFlags};
@@ -18,6 +19,8 @@ pub enum Solid {
         /// Half the length, m.
         half_height: f64,
     },
+    /// Everything below the plane z = 0.
+    HalfSpace,
     /// Triangle mesh; grains touch both of its sides.
     Mesh {
         /// Corners, m.
@@ -33,19 +36,87 @@ pub enum Mobility {
     /// Never moves.
     Fixed,
     /// Moves as told, whatever the grains do.
-    Driven {
-        /// Velocity, m/s.
-        velocity: Vector,
-        /// Angular velocity, rad/s.
-        spin: Vector,
-    },
+    Driven(Motion),
     /// Moves under gravity and the grains.
-    Free {
-        /// Mass, kg, spread evenly over the shape.
-        mass: f64,
-        /// Axis of a prismatic joint to the ground, which holds it in all other directions.
-        slide: Option<Vector>,
-    },
+    Free(Freedom),
+}
+
+/// A free body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Freedom {
+    /// Mass, kg, spread evenly over the shape.
+    pub mass: f64,
+    /// Velocity at the start, m/s.
+    pub velocity: Vector,
+    /// Angular velocity at the start, rad/s.
+    pub spin: Vector,
+    /// Constant force from outside on the centre of mass, N: a dead load.
+    pub force: Vector,
+    /// What holds it.
+    pub joint: Option<Joint>,
+    /// Held in place until a stage releases it.
+    pub held: bool,
+}
+
+/// Joint of a free body to the ground.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Joint {
+    /// What is left free.
+    pub kind: JointKind,
+    /// Point of the joint, m; the body's centre if none.
+    pub point: Option<Vector>,
+    /// Drive along or about the axis.
+    pub motor: Option<Motor>,
+}
+
+/// What a joint leaves free.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum JointKind {
+    /// Sliding along an axis.
+    Prismatic(Vector),
+    /// Turning about an axis.
+    Revolute(Vector),
+    /// Turning about a point.
+    Spherical,
+    /// Nothing.
+    Fixed,
+}
+
+/// Motor of a prismatic or revolute joint.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Motor {
+    /// Speed aimed at, m/s or rad/s.
+    pub speed: f64,
+    /// Largest force (N) or torque (N m).
+    pub strength: f64,
+}
+
+impl Freedom {
+    /// A body of `mass` (kg) that nothing holds, at rest.
+    #[must_use]
+    pub fn of_mass(mass: f64) -> Self {
+        Self {
+            mass,
+            velocity: Vector::ZERO,
+            spin: Vector::ZERO,
+            force: Vector::ZERO,
+            joint: None,
+            held: false,
+        }
+    }
+
+    /// The same on a joint that lets it slide along `axis` only.
+    #[must_use]
+    pub fn sliding(self, axis: Vector) -> Self {
+        Self {
+            joint: Some(Joint {
+                kind: JointKind::Prismatic(axis),
+                point: None,
+                motor: None,
+            }),
+            ..self
+        }
+    }
 }
 
 /// A body of the scene.
@@ -77,6 +148,34 @@ impl Body {
     }
 }
 
+impl Body {
+    /// Corners (m) of the block around the body; none for a plane.
+    #[must_use]
+    pub fn corners(&self) -> Option<[Vector; 2]> {
+        let half = match &self.solid {
+            Solid::HalfSpace => return None,
+            Solid::Ball(radius) => Vector::splat(*radius),
+            Solid::Cuboid(half) => *half,
+            Solid::Cylinder {
+                radius,
+                half_height,
+            } => Vector::new(*radius, *half_height, *radius),
+            Solid::Mesh { vertices, .. } => {
+                let placed = vertices.iter().map(|v| self.centre + self.rotation * *v);
+                return placed.fold(None, |corners: Option<[Vector; 2]>, v| {
+                    let [low, high] = corners.unwrap_or([v, v]);
+                    Some([low.min(v), high.max(v)])
+                });
+            }
+        };
+        let turned = [Vector::X, Vector::Y, Vector::Z]
+            .map(|axis| (self.rotation * (axis * half)).abs())
+            .into_iter()
+            .sum::<Vector>();
+        Some([self.centre - turned, self.centre + turned])
+    }
+}
+
 impl Solid {
     /// parry's shape, with lengths in `unit` (m).
     ///
@@ -93,6 +192,7 @@ impl Solid {
                 radius,
                 half_height,
             } => SharedShape::cylinder(half_height / unit, radius / unit),
+            Solid::HalfSpace => SharedShape::halfspace(Vector::Z),
             Solid::Mesh {
                 vertices,
                 triangles,
@@ -111,5 +211,34 @@ impl Solid {
                 )?
             }
         })
+    }
+
+    /// Volume, m3; none for a plane, and of no meaning for an open mesh.
+    ///
+    /// # Errors
+    /// As [`Solid::shape`].
+    pub fn volume(&self, unit: f64) -> Result<Option<f64>> {
+        if matches!(self, Solid::HalfSpace) {
+            return Ok(None);
+        }
+        let mass = self.shape(unit)?.mass_properties(1.0).mass();
+        Ok(Some(mass * unit.powi(3)))
+    }
+
+    /// Radius (m) about the origin that holds the shape; infinite for a plane.
+    #[must_use]
+    pub fn reach(&self) -> f64 {
+        match self {
+            Solid::Cuboid(half) => half.length(),
+            Solid::Ball(radius) => *radius,
+            Solid::Cylinder {
+                radius,
+                half_height,
+            } => radius.hypot(*half_height),
+            Solid::HalfSpace => f64::INFINITY,
+            Solid::Mesh { vertices, .. } => {
+                vertices.iter().fold(0.0, |reach, v| reach.max(v.length()))
+            }
+        }
     }
 }

@@ -3,6 +3,7 @@
 use super::damping::Viscous;
 use super::friction::{Mindlin, RollingSpring};
 use super::grains::Grains;
+use super::insertion::Newcomer;
 use super::law::{ContactLaw, Law};
 use super::machine::Machine;
 use super::measure::{Energies, Packing};
@@ -68,6 +69,8 @@ pub trait AnyBed: Send + Keep {
     fn soften(&mut self, factor: f64);
     /// See [`Bed::list_again`].
     fn list_again(&mut self);
+    /// Lets grains come in; their neighbours are listed anew.
+    fn join(&mut self, newcomers: &[Newcomer]);
     /// See [`Bed::start_account`].
     fn start_account(&mut self);
     /// Sets the time step, s.
@@ -111,6 +114,13 @@ impl<C: ContactLaw> AnyBed for Bed<C> {
 
     fn list_again(&mut self) {
         Bed::list_again(self);
+    }
+
+    fn join(&mut self, newcomers: &[Newcomer]) {
+        for newcomer in newcomers {
+            newcomer.join(&mut self.grains);
+        }
+        Bed::renew(self);
     }
 
     fn start_account(&mut self) {
@@ -194,16 +204,16 @@ impl<C: ContactLaw> AnyBed for Bed<C> {
 }
 
 /// Builds the normal laws of a bed from a concrete law; use with anything that visits laws by name.
-pub struct NormalsOf<'a> {
-    /// Grains the laws are for.
-    pub grains: &'a Grains,
+pub struct NormalsOf {
+    /// Whether all grains, those to come included, have one radius.
+    pub monodisperse: bool,
 }
 
-impl LawVisitor for NormalsOf<'_> {
+impl LawVisitor for NormalsOf {
     type Output = Normals;
 
     fn visit<L: NormalLaw>(self, law: &L) -> Normals {
-        let pair: Box<dyn NormalModel> = if self.grains.monodisperse() {
+        let pair: Box<dyn NormalModel> = if self.monodisperse {
             Box::new(Model(Twins(law.clone())))
         } else {
             Box::new(Model(Alike(law.clone())))

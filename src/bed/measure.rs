@@ -26,7 +26,7 @@ pub struct Energies {
     pub damping: f64,
     /// Dissipated by plastic flow in contacts.
     pub plastic: f64,
-    /// Work done by driven bodies.
+    /// Work done by driven bodies and by the motors of joints.
     pub driven: f64,
     /// Work done by changes of the law.
     pub stiffening: f64,
@@ -88,7 +88,7 @@ impl<C: ContactLaw> Bed<C> {
     #[must_use]
     pub fn energies(&self) -> Energies {
         let mut energies = Energies {
-            driven: self.outside.driven,
+            driven: self.outside.driven + self.machine.motor_energy(),
             stiffening: self.outside.stiffening,
             ..Energies::default()
         };

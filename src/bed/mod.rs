@@ -1,10 +1,12 @@
 //! Bed of grains: a discrete-element run of many grains under a contact law, among bodies moved by rapier.
 
+pub mod acts;
 pub mod bodies;
 pub mod by_material;
 pub mod compose;
 pub mod contacts;
 pub mod damping;
+pub mod feed;
 mod flattened;
 pub mod friction;
 pub mod grains;
@@ -13,7 +15,9 @@ pub mod law;
 pub mod lettering;
 pub mod machine;
 pub mod measure;
+pub mod mesh;
 pub mod mixture;
+pub mod motion;
 pub mod neighbours;
 pub mod normals;
 pub mod output;
@@ -21,12 +25,14 @@ mod patch;
 mod patches;
 pub mod periodic;
 pub mod protocol;
+pub mod region;
 pub mod render;
 mod restart;
+pub mod room;
 pub mod row;
 pub mod run;
 pub mod scene;
-pub mod stage;
+pub mod sizes;
 pub mod step;
 pub mod surfaces;
 pub mod time_step;

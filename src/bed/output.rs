@@ -47,7 +47,9 @@ pub struct Summary {
     pub inertial_number: f64,
     /// Energy dissipated by plastic flow over all energy dissipated.
     pub plastic_share: f64,
-    /// Contact stiffness over the true one while the packing was made.
+    /// Contact stiffness over that of the material, as the scene asks for.
+    pub contact_stiffness: f64,
+    /// The same while the packing was made.
     pub settling_stiffness: f64,
     /// How the run ended.
     pub status: &'static str,
@@ -60,6 +62,8 @@ pub struct Counts {
     pub grains: usize,
     /// Steps done.
     pub steps: u64,
+    /// Steps of single grains.
+    pub particle_steps: u64,
     /// Wall time, s.
     pub wall_s: f64,
     /// Grains outside.
@@ -68,7 +72,9 @@ pub struct Counts {
     pub beyond_validity: usize,
     /// Largest overlap over diameter.
     pub max_overlap_ratio: f64,
-    /// Contact stiffness over the true one while the packing was made.
+    /// Contact stiffness over that of the material, as the scene asks for.
+    pub contact_stiffness: f64,
+    /// The same while the packing was made.
     pub settling_stiffness: f64,
 }
 
@@ -89,7 +95,7 @@ impl Summary {
                 .iter()
                 .fold(f64::INFINITY, |dt, r| dt.min(r.time_step_s)),
             wall_s: counts.wall_s,
-            particle_steps_per_s: counts.grains as f64 * counts.steps as f64 / counts.wall_s,
+            particle_steps_per_s: counts.particle_steps as f64 / counts.wall_s,
             energy_closure: closure(rows),
             lost_grains: counts.lost,
             max_overlap_ratio: counts.max_overlap_ratio,
@@ -99,6 +105,7 @@ impl Summary {
             coordination: deepest.map_or(0.0, |r| r.coordination),
             inertial_number: peak.map_or(0.0, |r| r.inertial_number),
             plastic_share: last.map_or(0.0, |r| r.plastic_j / dissipated(r).max(f64::MIN_POSITIVE)),
+            contact_stiffness: counts.contact_stiffness,
             settling_stiffness: counts.settling_stiffness,
             status: "ok",
         }
@@ -121,7 +128,7 @@ pub struct Frames {
     folder: PathBuf,
     every: usize,
     rows: usize,
-    stage: &'static str,
+    stage: String,
     series: [Vec<(f64, String)>; 3],
 }
 
@@ -136,7 +143,7 @@ impl Frames {
             folder: folder.to_owned(),
             every: rows.checked_div(frames).unwrap_or(0),
             rows: 0,
-            stage: "",
+            stage: String::new(),
             series: Default::default(),
         }
     }
@@ -158,7 +165,7 @@ impl Frames {
 impl Observer for Frames {
     fn row(&mut self, bed: &dyn AnyBed, row: &Row) -> Result<()> {
         if self.stage != row.stage {
-            (self.stage, self.rows) = (row.stage, 0);
+            (self.stage, self.rows) = (row.stage.clone(), 0);
         }
         let due = self.every > 0 && self.rows.is_multiple_of(self.every);
         self.rows += 1;
@@ -235,6 +242,8 @@ fn bodies(bed: &dyn AnyBed) -> PolyData {
 fn outline(solid: &Solid) -> (Vec<Vector>, Vec<[u32; 3]>) {
     /// Segments around a round shape: for looking at, not for contact.
     const SEGMENTS: u32 = 32;
+    /// Half the edge of the part of a plane that is drawn, m.
+    const PLANE: f64 = 0.05;
     match solid {
         Solid::Cuboid(half) => parry3d::shape::Cuboid::new(*half).to_trimesh(),
         Solid::Ball(radius) => parry3d::shape::Ball::new(*radius).to_trimesh(SEGMENTS, SEGMENTS),
@@ -242,6 +251,9 @@ fn outline(solid: &Solid) -> (Vec<Vector>, Vec<[u32; 3]>) {
             radius,
             half_height,
         } => parry3d::shape::Cylinder::new(*half_height, *radius).to_trimesh(SEGMENTS),
+        Solid::HalfSpace => {
+            parry3d::shape::Cuboid::new(Vector::new(PLANE, PLANE, 0.0)).to_trimesh()
+        }
         Solid::Mesh {
             vertices,
             triangles,

@@ -101,13 +101,17 @@ impl<C: ContactLaw, const K: usize> Family<C, K> {
 impl Keep for Machine {
     fn save(&self, tape: &mut Tape) {
         self.state()[..].save(tape);
+        self.time.save(tape);
+        self.motors.save(tape);
     }
 
     fn load(&mut self, tape: &mut Tape) -> Option<()> {
         let mut state = self.state();
         state[..].load(tape)?;
-        self.restore(&state);
-        Some(())
+        let mut time = 0.0;
+        time.load(tape)?;
+        self.restore(&state, time);
+        self.motors.load(tape)
     }
 }
 

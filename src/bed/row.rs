@@ -1,8 +1,8 @@
 //! Row of the bed's time series, and the account of its energy.
 
 use super::compose::AnyBed;
-use super::insertion::{PISTON, Room};
 use super::measure::{Energies, Packing};
+use super::room::{PISTON, Room};
 use crate::material::Material;
 use serde::Serialize;
 
@@ -10,7 +10,7 @@ use serde::Serialize;
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Row {
     /// Stage.
-    pub stage: &'static str,
+    pub stage: String,
     /// Time, s.
     pub time_s: f64,
     /// Steps done.
@@ -91,10 +91,10 @@ pub struct View<'a> {
 }
 
 /// Where a stage has got to.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Progress {
     /// Stage.
-    pub stage: &'static str,
+    pub stage: String,
     /// Speed of the piston, m/s; 0 while it is parked.
     pub piston_speed: f64,
     /// Height at the seating stress, m; none before.
@@ -144,7 +144,7 @@ impl View<'_> {
         };
         let rate = progress.piston_speed / height;
         Row {
-            stage: progress.stage,
+            stage: progress.stage.clone(),
             time_s: time,
             step,
             time_step_s: dt,

@@ -1,23 +1,23 @@
 //! Run of a scene: one packing, then the same stages under each law, side by side.
 
 use super::compose::{AnyBed, Effects, NormalsOf, build};
+use super::feed::Feed;
 use super::grains::Grains;
-use super::insertion::{Room, insert};
+use super::insertion::{check_bodies, insert};
 use super::machine::{BodyState, Machine};
 use super::output::{Counts, Frames, Summary};
 use super::protocol::{Observer, Run};
 use super::render::write_picture;
+use super::room::Room;
 use super::row::Row;
-use super::scene::{FITTED, Scene};
-use super::stage::Stage;
-use super::step::Parts;
-use super::time_step;
+use super::scene::{Scene, Stage};
+use super::step::{Normals, Parts};
+use super::time_step::{self, Limits};
+use crate::Result;
 use crate::contact::LawVisitor;
 use crate::files::write_rows;
 use crate::law::{AnyLaw, LawFile};
 use crate::theory::hertz::Hertz;
-use crate::{Error, Result};
-use parry3d::math::Vector;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -46,7 +46,7 @@ pub struct LawRun {
     pub rows: Vec<Row>,
     /// Figures.
     pub summary: Summary,
-    /// The bed at the largest strain, for a picture.
+    /// The bed at the largest strain, or at the end, for a picture.
     pub portrait: Portrait,
 }
 
@@ -67,10 +67,8 @@ pub struct Portrait {
 
 /// A scene's run.
 pub struct BedReport {
-    /// Making of the packing.
-    pub packing: Vec<Row>,
-    /// Figures of the making.
-    pub packing_summary: Summary,
+    /// Making of the packing that all laws start from, if the scene makes one.
+    pub packing: Option<LawRun>,
     /// The laws, in the scene's order.
     pub laws: Vec<LawRun>,
     /// Stress, strain, coordination and dissipation of all laws: `oedometer.csv`.
@@ -83,7 +81,7 @@ pub struct BedReport {
 #[derive(Serialize)]
 struct OedometerRow<'a> {
     law: &'a str,
-    stage: &'static str,
+    stage: &'a str,
     strain: f64,
     #[serde(rename = "stress_Pa")]
     stress_pa: f64,
@@ -101,27 +99,43 @@ struct OedometerRow<'a> {
     driven_work_j: f64,
 }
 
-/// The packing all laws start from.
-struct Packed {
+/// Where all laws start from.
+struct Start {
     grains: Grains,
-    bodies: Vec<BodyState>,
+    bodies: Option<Vec<BodyState>>,
+    time: f64,
+    feed: Feed,
     room: Room,
 }
 
-/// Runs a scene and writes its files; `fitted` is the law file behind the name [`FITTED`].
+/// Runs a scene and writes its files; `given` is the law file beside the scene.
 ///
 /// Call it from a worker of a rayon pool (`rayon::scope`), or every step pays for a change of threads.
 ///
 /// # Errors
-/// [`Error::Argument`] when the scene wants a fitted law and there is none, or one of another material;
-/// [`Error::Bed`] when a bed cannot go on; [`Error::File`] when a file cannot be written.
-pub fn run_scene(scene: &Scene, fitted: Option<&LawFile>, options: &Options) -> Result<BedReport> {
-    let (grains, room) = insert(scene, options.seed.unwrap_or(scene.seed));
-    let laws = laws(scene, fitted)?;
-    let (packed, packing, packing_summary) = pack(scene, grains, room, options)?;
+/// Before the first step [`crate::Error::Argument`] when the scene wants a fitted law and there is none, or one of
+/// another material, and [`crate::Error::Value`] when grains or bodies have no room or the time step is too large;
+/// then [`crate::Error::Bed`] when a bed cannot go on and [`crate::Error::File`] when a file cannot be written.
+pub fn run_scene(scene: &Scene, given: Option<&LawFile>, options: &Options) -> Result<BedReport> {
+    let (grains, feed, room) = insert(scene, options.seed.unwrap_or(scene.seed))?;
+    let laws = laws(scene, given)?;
+    time_step::check(scene)?;
+    check_bodies(scene, &grains, &machine(scene, &room)?)?;
+    let mut start = Start {
+        grains,
+        bodies: None,
+        time: 0.0,
+        feed,
+        room,
+    };
+    let prepares = scene.stages.iter().any(Stage::prepares);
+    let packing = match prepares {
+        true => Some(pack(scene, &mut start, options)?),
+        false => None,
+    };
     let mut runs = Vec::new();
     for (name, law) in scene.laws.iter().zip(&laws) {
-        runs.push(compress(scene, name, law, &packed, options)?);
+        runs.push(under_law(scene, name, law, &start, options)?);
     }
     let oedometer = options.folder.join("bed/oedometer.csv");
     let rows: Vec<OedometerRow> = runs
@@ -137,45 +151,23 @@ pub fn run_scene(scene: &Scene, fitted: Option<&LawFile>, options: &Options) -> 
     write_picture(&picture, &portraits)?;
     Ok(BedReport {
         packing,
-        packing_summary,
         laws: runs,
         oedometer,
         picture,
     })
 }
 
-/// Laws of a scene by name, refused before the first step if one cannot be had.
-fn laws(scene: &Scene, fitted: Option<&LawFile>) -> Result<Vec<AnyLaw>> {
-    let wanted = scene.laws.iter().any(|law| law == FITTED);
-    let refuse = |found: &str, allowed: &str| Error::Argument {
-        argument: "--law".to_owned(),
-        found: found.to_owned(),
-        allowed: format!(
-            "{allowed}: the scene `{}` asks for the law \"{FITTED}\"",
-            scene.name
-        ),
-    };
-    match fitted {
-        None if wanted => return Err(refuse("nothing", "must name a law file")),
-        Some(file) if wanted && file.material() != scene.material => {
-            return Err(refuse(
-                "a law of another material",
-                "must name a law file of the scene's `[material]`",
-            ));
-        }
-        _ => {}
-    }
-    scene
-        .laws
-        .iter()
-        .map(|name| AnyLaw::named(name, fitted, &scene.material))
-        .collect()
+/// Laws of the runs, refused before the first step if one cannot be had.
+fn laws(scene: &Scene, given: Option<&LawFile>) -> Result<Vec<AnyLaw>> {
+    let material = &scene.materials[scene.groups[0].material];
+    let names = scene.laws.iter();
+    names.map(|name| material.law_in(name, given)).collect()
 }
 
-fn oedometer_row<'a>(law: &'a str, row: &Row) -> OedometerRow<'a> {
+fn oedometer_row<'a>(law: &'a str, row: &'a Row) -> OedometerRow<'a> {
     OedometerRow {
         law,
-        stage: row.stage,
+        stage: &row.stage,
         strain: row.strain,
         stress_pa: row.stress_pa,
         lateral_stress_pa: row.lateral_stress_pa,
@@ -188,98 +180,94 @@ fn oedometer_row<'a>(law: &'a str, row: &Row) -> OedometerRow<'a> {
     }
 }
 
-fn parts(scene: &Scene, grains: Grains, room: &Room) -> Result<Parts> {
-    let gravity = Vector::new(0.0, 0.0, -scene.gravity);
-    let skin = SKIN * grains.largest_radius();
-    let dt = time_step::largest(
-        &scene.time,
-        &scene.material,
-        grains.smallest_radius(),
-        1.0,
-        f64::INFINITY,
-    );
-    Ok(Parts {
+fn machine(scene: &Scene, room: &Room) -> Result<Machine> {
+    Machine::new(scene.all_bodies(room), scene.gravity, scene.radius())
+}
+
+/// Bed as it is at the start.
+fn bed(
+    scene: &Scene,
+    start: &Start,
+    normals: Normals,
+    effects: &Effects,
+) -> Result<Box<dyn AnyBed>> {
+    let mut machine = machine(scene, &start.room)?;
+    if let Some(bodies) = &start.bodies {
+        machine.restore(bodies, start.time);
+    }
+    let mut grains = start.grains.clone();
+    grains.plastic.fill(0.0);
+    let parts = Parts {
         grains,
-        machine: Machine::new(room.bodies(), gravity, scene.radius)?,
-        gravity,
-        dt,
-        skin,
-    })
+        machine,
+        gravity: scene.gravity,
+        dt: Limits::of(scene).rayleigh(1.0),
+        skin: SKIN * scene.radii()[1],
+    };
+    let mut bed = build(normals, effects, parts);
+    bed.soften(scene.contact.softening());
+    Ok(bed)
+}
+
+fn normals(scene: &Scene) -> NormalsOf {
+    let [smallest, largest] = scene.radii();
+    NormalsOf {
+        monodisperse: smallest == largest,
+    }
 }
 
 /// Makes the packing with softened elastic contacts.
-fn pack(
-    scene: &Scene,
-    grains: Grains,
-    room: Room,
-    options: &Options,
-) -> Result<(Packed, Vec<Row>, Summary)> {
+fn pack(scene: &Scene, start: &mut Start, options: &Options) -> Result<LawRun> {
     let began = Instant::now();
-    let parts = parts(scene, grains, &room)?;
-    let normals = NormalsOf {
-        grains: &parts.grains,
-    }
-    .visit(&Hertz::of(&scene.material));
     let contact = scene.stages.iter().find_map(|stage| match stage {
         Stage::Settle { contact, .. } => Some(*contact),
         _ => None,
     });
-    let effects = Effects::of(&contact.unwrap_or(scene.contact), &scene.material);
-    let bed = build(normals, &effects, parts);
+    let effects = Effects::of(&contact.unwrap_or(scene.contact), scene.material());
+    let law = normals(scene).visit(&Hertz::of(scene.material()));
+    let bed = bed(scene, start, law, &effects)?;
     let mut observer = Watch::new("packing", scene, options);
-    let mut run = Run::new(bed, scene, room, &mut observer);
+    let mut run = Run::new(bed, scene, start.room, start.feed.clone(), &mut observer);
     for stage in scene.stages.iter().filter(|stage| stage.prepares()) {
         run.stage(stage)?;
     }
-    let packed = Packed {
-        grains: run.bed.grains().clone(),
-        bodies: run.bed.machine().state(),
-        room,
-    };
-    let summary = finish("packing", scene, &run, began, options)?;
-    Ok((packed, run.rows, summary))
+    start.grains = run.bed.grains().clone();
+    start.bodies = Some(run.bed.machine().state());
+    start.time = run.bed.clock().1;
+    start.feed = run.feed.clone();
+    start.feed.restart_clock(start.time);
+    let portrait = portrait(run.bed.as_ref(), start.room, start.room.height);
+    finish("packing", scene, run, portrait, began, options)
 }
 
-/// Compresses the packing under one law.
-fn compress(
+/// Runs the stages after the packing under one law.
+fn under_law(
     scene: &Scene,
     name: &str,
     law: &AnyLaw,
-    packed: &Packed,
+    start: &Start,
     options: &Options,
 ) -> Result<LawRun> {
     let began = Instant::now();
-    let mut parts = parts(scene, packed.grains.clone(), &packed.room)?;
-    parts.grains.plastic.fill(0.0);
-    parts.machine.restore(&packed.bodies);
-    let normals = law.visit(NormalsOf {
-        grains: &parts.grains,
-    })?;
-    let bed = build(
-        normals,
-        &Effects::of(&scene.contact, &scene.material),
-        parts,
-    );
+    let normals = law.visit(normals(scene))?;
+    let effects = Effects::of(&scene.contact, scene.material());
+    let bed = bed(scene, start, normals, &effects)?;
     let mut observer = Watch::new(name, scene, options);
-    let mut run = Run::new(bed, scene, packed.room, &mut observer);
-    let mut portrait = portrait(run.bed.as_ref(), packed.room, packed.room.height);
+    let mut run = Run::new(bed, scene, start.room, start.feed.clone(), &mut observer);
+    let mut deepest = None;
     for stage in scene.stages.iter().filter(|stage| !stage.prepares()) {
         run.stage(stage)?;
         if matches!(stage, Stage::Compress { .. }) {
             let face = run
                 .rows
                 .last()
-                .map_or(packed.room.height, |row| row.height_m);
-            portrait = self::portrait(run.bed.as_ref(), packed.room, face);
+                .map_or(start.room.height, |row| row.height_m);
+            deepest = Some(portrait(run.bed.as_ref(), start.room, face));
         }
     }
-    let summary = finish(name, scene, &run, began, options)?;
-    Ok(LawRun {
-        law: name.to_owned(),
-        rows: run.rows,
-        summary,
-        portrait,
-    })
+    let portrait =
+        deepest.unwrap_or_else(|| portrait(run.bed.as_ref(), start.room, start.room.height));
+    finish(name, scene, run, portrait, began, options)
 }
 
 fn portrait(bed: &dyn AnyBed, room: Room, face: f64) -> Portrait {
@@ -296,31 +284,41 @@ fn portrait(bed: &dyn AnyBed, room: Room, face: f64) -> Portrait {
 fn finish(
     name: &str,
     scene: &Scene,
-    run: &Run,
+    run: Run,
+    portrait: Portrait,
     began: Instant,
     options: &Options,
-) -> Result<Summary> {
-    let settling_stiffness = scene
-        .stages
-        .iter()
-        .fold(1.0, |softest: f64, stage| match stage {
-            Stage::Settle { stiffness, .. } => softest.min(*stiffness),
-            _ => softest,
-        });
+) -> Result<LawRun> {
+    let softening = scene.contact.softening();
+    let settling_stiffness =
+        scene
+            .stages
+            .iter()
+            .fold(softening, |softest: f64, stage| match stage {
+                Stage::Settle { stiffness, .. } => softest.min(*stiffness),
+                _ => softest,
+            });
     let counts = Counts {
         grains: run.bed.grains().len(),
         steps: run.bed.clock().2,
+        particle_steps: run.tally.particle_steps,
         wall_s: began.elapsed().as_secs_f64(),
-        lost: run.lost,
-        beyond_validity: run.beyond_validity,
-        max_overlap_ratio: run.max_overlap_ratio,
+        lost: run.tally.lost,
+        beyond_validity: run.tally.beyond_validity,
+        max_overlap_ratio: run.tally.max_overlap_ratio,
+        contact_stiffness: softening,
         settling_stiffness,
     };
     let summary = Summary::new(name, &run.rows, counts);
     let folder = folder(options, name);
     write_rows(&folder.join("bed.csv"), options.provenance, &run.rows)?;
     summary.write(&folder)?;
-    Ok(summary)
+    Ok(LawRun {
+        law: name.to_owned(),
+        rows: run.rows,
+        summary,
+        portrait,
+    })
 }
 
 fn folder(options: &Options, name: &str) -> PathBuf {

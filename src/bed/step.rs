@@ -164,8 +164,13 @@ impl<C: ContactLaw> Bed<C> {
         Ok(())
     }
 
-    /// Neighbours are listed and forces evaluated anew, after a body was moved by hand.
+    /// Neighbours are listed anew before the next evaluation, after a body was moved by hand or taken out.
     pub fn list_again(&mut self) {
+        self.listed.due = true;
+    }
+
+    /// Neighbours are listed and forces evaluated anew, after grains have come in.
+    pub fn renew(&mut self) {
         self.listed.due = true;
         self.fresh = false;
     }

@@ -64,6 +64,9 @@ impl<C: ContactLaw> Surfaces<C> {
             let centre = sphere.centre / machine.unit;
             let reach = (sphere.radius + skin) / machine.unit;
             for (index, surface) in machine.surfaces.iter().enumerate() {
+                if surface.removed {
+                    continue;
+                }
                 let near = boxes[index].loosened(reach).contains_local_point(centre)
                     && surface.shape.distance_to_point(&surface.pose, centre, true) < reach;
                 if near {

@@ -1,8 +1,14 @@
-//! Time step: the largest that follows the stiffest contact and the waves through a grain.
+//! Time step: the largest that follows the stiffest contact, the waves through a grain and the fastest grain.
 
-use super::scene::TimeTable;
+use super::measure::Packing;
+use super::scene::{Scene, TimeStep};
+use crate::Result;
 use crate::material::Material;
+use crate::unit::engineering;
 use std::f64::consts::PI;
+
+/// Largest way of a grain in one step, over its radius.
+const LONGEST_WAY: f64 = 0.1;
 
 /// Time a Rayleigh wave takes over half a grain, s.
 ///
@@ -23,16 +29,91 @@ pub fn rayleigh_time(material: &Material, radius: f64) -> f64 {
     PI * radius * (material.density / shear).sqrt() / (0.1631 * nu + 0.8766)
 }
 
-/// Largest time step (s) for grains from `radius` (m) up, contacts `softening` times as stiff as the material's, and
-/// the present shortest half oscillation `contact_time` (s).
-#[must_use]
-pub fn largest(
-    settings: &TimeTable,
-    material: &Material,
-    radius: f64,
-    softening: f64,
-    contact_time: f64,
-) -> f64 {
-    let rayleigh = settings.rayleigh_fraction * rayleigh_time(material, radius) / softening.sqrt();
-    rayleigh.min(contact_time / settings.steps_per_contact)
+/// What bounds the time step of a scene.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limits {
+    settings: TimeStep,
+    /// Shortest Rayleigh time of a grain at full stiffness, s.
+    rayleigh: f64,
+    /// Smallest radius, m.
+    smallest: f64,
+}
+
+impl Limits {
+    /// Limits of a scene.
+    #[must_use]
+    pub fn of(scene: &Scene) -> Self {
+        let times = scene.groups.iter().map(|group| {
+            let material = &scene.materials[group.material].material;
+            rayleigh_time(material, group.sizes.limits()[0])
+        });
+        Self {
+            settings: scene.time,
+            rayleigh: times.fold(f64::INFINITY, f64::min),
+            smallest: scene.radii()[0],
+        }
+    }
+
+    /// Largest time step (s) by the Rayleigh time, for contacts `softening` times as stiff as the material's; the
+    /// scene's own step where it is smaller.
+    #[must_use]
+    pub fn rayleigh(&self, softening: f64) -> f64 {
+        let limit = self.settings.rayleigh_fraction * self.rayleigh / softening.sqrt();
+        self.settings.step.map_or(limit, |step| limit.min(step))
+    }
+
+    /// Time step (s) for the present state.
+    ///
+    /// # Errors
+    /// The reason why the scene's own step is too large for it, with the largest that would do.
+    pub fn step(&self, softening: f64, packing: &Packing) -> std::result::Result<f64, String> {
+        let contact = packing.contact_time / self.settings.steps_per_contact;
+        let way = LONGEST_WAY * self.smallest / packing.max_speed;
+        let rayleigh = self.settings.rayleigh_fraction * self.rayleigh / softening.sqrt();
+        let limit = rayleigh.min(contact).min(way);
+        let Some(step) = self.settings.step else {
+            return Ok(limit);
+        };
+        if step <= limit {
+            return Ok(step);
+        }
+        let why = if limit == contact {
+            "the stiffest contact"
+        } else if limit == way {
+            "the fastest grain"
+        } else {
+            "the Rayleigh time"
+        };
+        Err(format!(
+            "`time.step` is too large: {why} allows at most {}; reduce it, or leave it out to have it follow the bed",
+            engineering(limit, "s", 3)
+        ))
+    }
+}
+
+/// That a scene's own time step is within the Rayleigh limit, before anything is run.
+///
+/// # Errors
+/// [`crate::Error::Value`] with the largest step allowed.
+pub fn check(scene: &Scene) -> Result<()> {
+    let Some(step) = scene.time.step else {
+        return Ok(());
+    };
+    let limit = Limits {
+        settings: TimeStep {
+            step: None,
+            ..scene.time
+        },
+        ..Limits::of(scene)
+    }
+    .rayleigh(scene.contact.softening());
+    if step <= limit {
+        return Ok(());
+    }
+    let allowed = format!(
+        "must be at most {} ({} of the Rayleigh time of the smallest grain); reduce it, or leave it out to have it follow the bed",
+        engineering(limit, "s", 3),
+        scene.time.rayleigh_fraction
+    );
+    Err(scene.document.reject("time.step", allowed))
 }

@@ -104,7 +104,7 @@ fn summary(report: &BedReport) -> String {
 pub fn verdict(report: &BedReport) -> Verdict {
     let summaries = report.laws.iter().map(|run| &run.summary);
     let fine = summaries
-        .chain([&report.packing_summary])
+        .chain(report.packing.iter().map(|packing| &packing.summary))
         .all(|s| s.energy_closure < CLOSURE && s.lost_grains == 0);
     if fine { Verdict::Met } else { Verdict::Missed }
 }

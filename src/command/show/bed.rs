@@ -31,30 +31,37 @@ pub fn bed(scene: &Scene, report: &BedReport, picture: &Path) -> Result<BedShow>
 }
 
 fn facts(scene: &Scene, report: &BedReport) -> Vec<(String, String)> {
-    let packing = &report.packing_summary;
     let inertia = report
         .laws
         .iter()
         .map(|law| law.summary.inertial_number)
         .fold(0.0, f64::max);
-    [
+    let grains = report.laws.iter().map(|law| law.summary.grains).max();
+    let mut facts = vec![
         ("Scene", scene.name.clone()),
-        ("Grains", packing.grains.to_string()),
-        (
-            "Packing",
-            format!(
-                "made with contacts {} times as stiff as true ones, energy closure {}",
-                significant(packing.settling_stiffness, 2),
-                significant(packing.energy_closure, 2)
-            ),
-        ),
-        (
-            "Inertial number at the largest stress",
-            format!("at most {}", significant(inertia, 2)),
-        ),
-    ]
-    .map(|(name, value)| (name.to_owned(), value))
-    .into()
+        ("Grains", grains.unwrap_or(0).to_string()),
+    ];
+    if let Some(packing) = report.packing.as_ref().map(|packing| &packing.summary) {
+        let text = format!(
+            "made with contacts {} times as stiff as true ones, energy closure {}",
+            significant(packing.settling_stiffness, 2),
+            significant(packing.energy_closure, 2)
+        );
+        facts.push(("Packing", text));
+    }
+    if scene.contact.softening() < 1.0 {
+        let text = format!(
+            "{} of the material's",
+            significant(scene.contact.softening(), 2)
+        );
+        facts.push(("Contact stiffness", text));
+    }
+    facts.push((
+        "Inertial number at the largest stress",
+        format!("at most {}", significant(inertia, 2)),
+    ));
+    let owned = |(name, value): (&str, String)| (name.to_owned(), value);
+    facts.into_iter().map(owned).collect()
 }
 
 fn results(report: &BedReport) -> Table {

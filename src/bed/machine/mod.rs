@@ -1,16 +1,22 @@
-//! Machine: everything that is not a grain, as rapier bodies; the only file that names rapier.
+//! Machine: everything that is not a grain, as rapier bodies; nothing outside this folder names rapier.
 //!
 //! rapier moves bodies (gravity, joints, driven motion), grains press on them, and rapier's own contacts are off.
 //! Its tolerances are absolute lengths meant for metres, so that inside this file lengths count grain radii; masses
 //! and times stay SI. Everything that comes out is SI.
 
-use super::bodies::{Body, Mobility};
+mod drive;
+mod joint;
+
+pub use drive::BodyState;
+
+use super::bodies::{Body, Freedom, Mobility};
 use super::mixture::RIGID;
-use crate::tape::keep_fields;
 use crate::{Error, Result};
+use drive::{Drive, Mode};
+use joint::Tie;
 use parry3d::math::{Pose, Vector};
 use parry3d::shape::SharedShape;
-use rapier3d::dynamics::{PrismaticJointBuilder, RigidBodyBuilder, RigidBodyHandle};
+use rapier3d::dynamics::{RigidBodyBuilder, RigidBodyHandle};
 use rapier3d::geometry::{ColliderBuilder, InteractionGroups};
 use rapier3d::pipeline::PhysicsWorld;
 
@@ -36,6 +42,8 @@ pub struct Surface {
     pub shape: SharedShape,
     /// Place and orientation of the shape.
     pub pose: Pose,
+    /// Taken out of the bed: it touches nothing any more.
+    pub removed: bool,
 }
 
 /// Force and torque of the grains on a body.
@@ -47,20 +55,16 @@ pub struct Load {
     pub torque: Vector,
 }
 
-/// Place and motion of one body, in the machine's unit: all that a restart needs.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BodyState {
-    pose: Pose,
-    velocity: Vector,
-    spin: Vector,
-}
-keep_fields!(BodyState: pose, velocity, spin);
-
 /// The bodies of a scene.
 pub struct Machine {
     world: PhysicsWorld,
     handles: Vec<RigidBodyHandle>,
     bodies: Vec<Body>,
+    drives: Vec<Drive>,
+    modes: Vec<Mode>,
+    ties: Vec<Option<Tie>>,
+    pub(super) time: f64,
+    pub(super) motors: f64,
     /// Unit of length, m: a grain radius.
     pub unit: f64,
     /// Bodies as the grains meet them; one for each body of the scene, in its order.
@@ -84,6 +88,11 @@ impl Machine {
             world,
             handles: Vec::new(),
             bodies: Vec::new(),
+            drives: Vec::new(),
+            modes: Vec::new(),
+            ties: Vec::new(),
+            time: 0.0,
+            motors: 0.0,
             unit,
             stations: Vec::new(),
             surfaces: Vec::new(),
@@ -101,13 +110,19 @@ impl Machine {
         let pose = Pose::from_parts(body.centre / self.unit, body.rotation);
         let builder = match body.mobility {
             Mobility::Fixed => RigidBodyBuilder::fixed(),
-            Mobility::Driven { velocity, spin } => RigidBodyBuilder::kinematic_velocity_based()
-                .linvel(velocity / self.unit)
-                .angvel(spin),
-            Mobility::Free { mass, .. } => {
+            Mobility::Driven(_) => RigidBodyBuilder::kinematic_velocity_based(),
+            Mobility::Free(Freedom {
+                mass,
+                velocity,
+                spin,
+                ..
+            }) => {
                 let mut properties = shape.mass_properties(1.0);
                 properties.set_mass(mass, true);
-                RigidBodyBuilder::dynamic().additional_mass_properties(properties)
+                RigidBodyBuilder::dynamic()
+                    .additional_mass_properties(properties)
+                    .linvel(velocity / self.unit)
+                    .angvel(spin)
             }
         };
         let builder = builder
@@ -119,31 +134,36 @@ impl Machine {
             .collision_groups(InteractionGroups::none())
             .solver_groups(InteractionGroups::none());
         let (handle, _) = self.world.insert(builder, collider);
-        if let Mobility::Free {
-            slide: Some(axis), ..
-        } = body.mobility
-        {
-            let ground = self.world.insert_body(RigidBodyBuilder::fixed().pose(pose));
-            let axis = body.rotation.inverse() * axis.normalize();
-            self.world
-                .insert_impulse_joint(ground, handle, PrismaticJointBuilder::new(axis));
-        }
+        let tie = self.tie(&body, handle);
+        self.ties.push(tie);
         self.world.bodies[handle].recompute_mass_properties_from_colliders(&self.world.colliders);
         self.stations.push(Station {
             centre: Vector::ZERO,
             velocity: Vector::ZERO,
             spin: Vector::ZERO,
-            inverse_mass: if let Mobility::Free { mass, .. } = body.mobility {
-                1.0 / mass
-            } else {
-                0.0
+            inverse_mass: match body.mobility {
+                Mobility::Free(freedom) => 1.0 / freedom.mass,
+                _ => 0.0,
             },
-            driven: matches!(body.mobility, Mobility::Driven { .. }),
+            driven: matches!(body.mobility, Mobility::Driven(_)),
         });
-        self.surfaces.push(Surface { shape, pose });
+        self.surfaces.push(Surface {
+            shape,
+            pose,
+            removed: false,
+        });
         self.materials.push(RIGID);
         self.handles.push(handle);
+        self.drives.push(Drive::default());
+        self.modes.push(Mode::Usual);
+        let index = self.bodies.len();
+        let mobility = body.mobility;
         self.bodies.push(body);
+        match mobility {
+            Mobility::Driven(motion) => self.drive_as(index, motion),
+            Mobility::Free(freedom) if freedom.held => self.set_mode(index, Mode::Held),
+            _ => {}
+        }
         Ok(())
     }
 
@@ -168,20 +188,26 @@ impl Machine {
     /// # Errors
     /// [`Error::Bed`] when a body's place is no longer a number.
     pub fn step(&mut self, loads: &[Load], dt: f64) -> Result<()> {
+        self.steer(loads, dt);
+        self.time += dt;
         if self.at_rest() {
             return Ok(());
         }
-        for (&handle, load) in self.handles.iter().zip(loads) {
-            let body = &mut self.world.bodies[handle];
-            if body.is_dynamic() {
-                body.reset_forces(false);
-                body.reset_torques(false);
-                body.add_force(load.force / self.unit, false);
-                body.add_torque(load.torque / (self.unit * self.unit), false);
+        for ((&handle, load), body) in self.handles.iter().zip(loads).zip(&self.bodies) {
+            let rigid = &mut self.world.bodies[handle];
+            if let Mobility::Free(freedom) = body.mobility
+                && rigid.is_dynamic()
+            {
+                rigid.reset_forces(false);
+                rigid.reset_torques(false);
+                rigid.add_force((load.force + freedom.force) / self.unit, false);
+                rigid.add_torque(load.torque / (self.unit * self.unit), false);
             }
         }
+        let before = self.motor_rates();
         self.world.integration_parameters.dt = dt;
         self.world.step();
+        self.motors += self.motor_work(&before);
         if self.world.quarantine().is_empty() {
             Ok(())
         } else {
@@ -214,16 +240,17 @@ impl Machine {
                     let turn = surface.pose.rotation.angle_between(before.rotation);
                     let reach = surface.shape.compute_local_bounding_sphere();
                     let arm = reach.center().length() + reach.radius();
-                    furthest
-                        .max((surface.pose.translation - before.translation).length() + turn * arm)
+                    // a plane has no end: without a turn its arm does not matter
+                    let turned = if turn > 0.0 { turn * arm } else { 0.0 };
+                    furthest.max((surface.pose.translation - before.translation).length() + turned)
                 });
         furthest * self.unit
     }
 
-    /// Sets the velocity (m/s) of a driven body.
-    pub fn drive(&mut self, body: usize, velocity: Vector) {
-        self.world.bodies[self.handles[body]].set_linvel(velocity / self.unit, true);
-        self.view();
+    /// Work (J) the motors of joints have done.
+    #[must_use]
+    pub fn motor_energy(&self) -> f64 {
+        self.motors
     }
 
     /// Puts a body's centre of mass at a height (m) without moving it sideways; it must not touch a grain there.
@@ -245,33 +272,6 @@ impl Machine {
     #[must_use]
     pub fn find(&self, name: &str) -> Option<usize> {
         self.bodies.iter().position(|body| body.name == name)
-    }
-
-    /// Place and motion of every body, bit for bit.
-    #[must_use]
-    pub fn state(&self) -> Vec<BodyState> {
-        self.handles
-            .iter()
-            .map(|&handle| {
-                let body = &self.world.bodies[handle];
-                BodyState {
-                    pose: *body.position(),
-                    velocity: body.linvel(),
-                    spin: body.angvel(),
-                }
-            })
-            .collect()
-    }
-
-    /// Puts every body where [`Machine::state`] found it.
-    pub fn restore(&mut self, state: &[BodyState]) {
-        for (&handle, state) in self.handles.iter().zip(state) {
-            let body = &mut self.world.bodies[handle];
-            body.set_position(state.pose, true);
-            body.set_linvel(state.velocity, true);
-            body.set_angvel(state.spin, true);
-        }
-        self.view();
     }
 
     /// Angular momentum of the free bodies about `origin` (m), kg m2/s.
@@ -298,15 +298,18 @@ impl Machine {
     pub fn energy(&self, loads: &[Load], dt: f64) -> (f64, f64) {
         let gravity = self.world.gravity * self.unit;
         let (mut kinetic, mut potential) = (0.0, 0.0);
-        for ((&handle, station), load) in self.handles.iter().zip(&self.stations).zip(loads) {
-            let body = &self.world.bodies[handle];
-            if body.is_dynamic() {
+        for (index, (station, load)) in self.stations.iter().zip(loads).enumerate() {
+            let body = &self.world.bodies[self.handles[index]];
+            if let Mobility::Free(freedom) = self.bodies[index].mobility
+                && body.is_dynamic()
+            {
                 let mass = 1.0 / station.inverse_mass;
-                let half_kick = 0.5 * dt * (load.force * station.inverse_mass + gravity);
+                let force = load.force + freedom.force;
+                let half_kick = 0.5 * dt * (force * station.inverse_mass + gravity);
                 kinetic += body.kinetic_energy() * self.unit * self.unit
                     + mass * station.velocity.dot(half_kick)
                     + 0.5 * dt * load.torque.dot(station.spin);
-                potential -= mass * gravity.dot(station.centre);
+                potential -= (mass * gravity + freedom.force).dot(station.centre);
             }
         }
         (kinetic, potential)

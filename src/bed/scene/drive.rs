@@ -1,0 +1,210 @@
+//! Ways a body may move, as they are written: driven, or free with joint and motor.
+
+use super::body::At;
+use super::group::vector;
+use crate::Result;
+use crate::bed::bodies::{Freedom, Joint, JointKind, Motor, Solid};
+use crate::bed::mesh;
+use crate::bed::motion::{Motion, Oscillation, Servo};
+use crate::document::Document;
+use crate::unit::{
+    AngularVelocity, Density, Force, Frequency, Length, Mass, Quantity, Torque, Velocity,
+};
+use parry3d::math::Vector;
+use serde::Deserialize;
+
+/// Told motion, of a body or from a stage on.
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct DrivenTable {
+    velocity: Option<[Quantity<Velocity>; 3]>,
+    spin: Option<SpinTable>,
+    oscillation: Option<OscillationTable>,
+    servo: Option<ServoTable>,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SpinTable {
+    axis: [f64; 3],
+    rate: Quantity<AngularVelocity>,
+    about: Option<[Quantity<Length>; 3]>,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct OscillationTable {
+    direction: [f64; 3],
+    amplitude: Quantity<Length>,
+    frequency: Quantity<Frequency>,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ServoTable {
+    direction: [f64; 3],
+    force: Quantity<Force>,
+    speed: Quantity<Velocity>,
+}
+
+/// Motion under forces.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct FreeTable {
+    mass: Option<Quantity<Mass>>,
+    density: Option<Quantity<Density>>,
+    velocity: Option<[Quantity<Velocity>; 3]>,
+    force: Option<[Quantity<Force>; 3]>,
+    joint: Option<JointTable>,
+    #[serde(default)]
+    held: bool,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct JointTable {
+    kind: JointName,
+    axis: Option<[f64; 3]>,
+    point: Option<[Quantity<Length>; 3]>,
+    motor: Option<MotorTable>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum JointName {
+    Prismatic,
+    Revolute,
+    Spherical,
+    Fixed,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct MotorTable {
+    velocity: Option<Quantity<Velocity>>,
+    max_force: Option<Quantity<Force>>,
+    rate: Option<Quantity<AngularVelocity>>,
+    max_torque: Option<Quantity<Torque>>,
+}
+
+impl DrivenTable {
+    pub(super) fn check(&self, document: &Document, key: &str) -> Result<Motion> {
+        let at = At { document, key };
+        let spin = match &self.spin {
+            Some(spin) => at.direction("spin.axis", spin.axis)? * spin.rate.si(),
+            None => Vector::ZERO,
+        };
+        let oscillation = match &self.oscillation {
+            Some(table) => Some(Oscillation {
+                amplitude: at.direction("oscillation.direction", table.direction)?
+                    * at.positive("oscillation.amplitude", table.amplitude)?,
+                frequency: at.positive("oscillation.frequency", table.frequency)?,
+            }),
+            None => None,
+        };
+        let servo = match &self.servo {
+            Some(table) => Some(Servo {
+                direction: at.direction("servo.direction", table.direction)?,
+                force: at.positive("servo.force", table.force)?,
+                speed: at.positive("servo.speed", table.speed)?,
+            }),
+            None => None,
+        };
+        if servo.is_some()
+            && (self.velocity.is_some() || spin != Vector::ZERO || oscillation.is_some())
+        {
+            return Err(at.reject("servo", "must stand alone: the servo sets the velocity"));
+        }
+        Ok(Motion {
+            velocity: self.velocity.map_or(Vector::ZERO, vector),
+            spin,
+            about: self.spin.and_then(|spin| spin.about).map(vector),
+            oscillation,
+            servo,
+        })
+    }
+}
+
+impl FreeTable {
+    pub(super) fn check(&self, at: &At, solid: &Solid) -> Result<Freedom> {
+        if let Solid::Mesh { triangles, .. } = solid {
+            let open = mesh::open_edges(triangles);
+            if open > 0 {
+                let allowed = format!(
+                    "must be a closed surface for a free body, whose mass is spread over its inside: {open} edges have not exactly two triangles; close the mesh, or make the body driven or fixed"
+                );
+                return Err(at.document.reject(at.key, allowed));
+            }
+        }
+        if matches!(solid, Solid::HalfSpace) {
+            return Err(at.reject("free", "must not be a plane: it has no mass"));
+        }
+        let mass = match (self.mass, self.density) {
+            (Some(mass), None) => at.positive("free.mass", mass)?,
+            (None, Some(density)) => {
+                let density = at.positive("free.density", density)?;
+                let volume = solid.volume(solid.reach())?.unwrap_or(0.0);
+                at.document.check(
+                    at.key,
+                    density * volume,
+                    |mass| mass > 0.0,
+                    "must enclose a volume, or give the body a `mass`",
+                )?
+            }
+            _ => return Err(at.reject("free", "must hold either `mass` or `density`")),
+        };
+        Ok(Freedom {
+            mass,
+            velocity: self.velocity.map_or(Vector::ZERO, vector),
+            spin: Vector::ZERO,
+            force: self.force.map_or(Vector::ZERO, vector),
+            joint: match &self.joint {
+                Some(joint) => Some(joint.check(at)?),
+                None => None,
+            },
+            held: self.held,
+        })
+    }
+}
+
+impl JointTable {
+    fn check(&self, at: &At) -> Result<Joint> {
+        let axis = || match self.axis {
+            Some(axis) => at.direction("free.joint.axis", axis),
+            None => Err(at.reject("free.joint.axis", "must be there for this kind of joint")),
+        };
+        let kind = match self.kind {
+            JointName::Prismatic => JointKind::Prismatic(axis()?),
+            JointName::Revolute => JointKind::Revolute(axis()?),
+            JointName::Spherical => JointKind::Spherical,
+            JointName::Fixed => JointKind::Fixed,
+        };
+        Ok(Joint {
+            kind,
+            point: self.point.map(vector),
+            motor: match &self.motor {
+                Some(motor) => Some(motor.check(at, self.kind)?),
+                None => None,
+            },
+        })
+    }
+}
+
+impl MotorTable {
+    fn check(&self, at: &At, joint: JointName) -> Result<Motor> {
+        match (joint, self.velocity, self.max_force, self.rate, self.max_torque) {
+            (JointName::Prismatic, Some(speed), Some(force), None, None) => Ok(Motor {
+                speed: speed.si(),
+                strength: at.positive("free.joint.motor.max_force", force)?,
+            }),
+            (JointName::Revolute, None, None, Some(rate), Some(torque)) => Ok(Motor {
+                speed: rate.si(),
+                strength: at.positive("free.joint.motor.max_torque", torque)?,
+            }),
+            _ => Err(at.reject(
+                "free.joint.motor",
+                "must hold `velocity` and `max_force` on a prismatic joint, `rate` and `max_torque` on a revolute one",
+            )),
+        }
+    }
+}

@@ -1,0 +1,302 @@
+//! Groups of grains: how many, how large, of what, and how they come into the bed.
+
+use super::material::GrainMaterial;
+use super::written::OneOrMany;
+use crate::Result;
+use crate::bed::region::Region;
+use crate::bed::sizes::Sizes;
+use crate::document::Document;
+use crate::unit::{Length, Mass, MassRate, Quantity, Velocity};
+use parry3d::math::Vector;
+use serde::Deserialize;
+
+/// Grains of one kind.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Group {
+    /// Name, by which stages insert it.
+    pub name: String,
+    /// Dotted key of its table.
+    pub key: String,
+    /// How many.
+    pub amount: Amount,
+    /// How large.
+    pub sizes: Sizes,
+    /// Index into the scene's materials.
+    pub material: usize,
+    /// How they come in.
+    pub insertion: Insertion,
+    /// Where; the container if none.
+    pub region: Option<Region>,
+    /// Velocity they come in with, m/s.
+    pub velocity: Vector,
+    /// Root mean square of the random velocities on top, along each axis, m/s.
+    pub stir: f64,
+}
+
+/// Amount of grains.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Amount {
+    /// Number.
+    Count(usize),
+    /// Mass, kg, reached by the last grain.
+    Mass(f64),
+}
+
+/// How grains come in.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Insertion {
+    /// All at once, on a lattice with each grain a little off its place.
+    Lattice,
+    /// Lattices that fill the region, each once the one before has left it, until the amount is reached.
+    Pour,
+    /// One by one at random places of the region, at a rate in kg/s.
+    Stream(f64),
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum InsertionName {
+    Lattice,
+    Pour,
+    Stream,
+}
+
+/// Table `[grains]` or `[[grains]]` as it is written.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct GroupTable {
+    name: Option<String>,
+    count: Option<usize>,
+    mass: Option<Quantity<Mass>>,
+    radius: Option<Quantity<Length>>,
+    spread: Option<f64>,
+    sieve: Option<Vec<SieveTable>>,
+    lognormal: Option<LogNormalTable>,
+    material: Option<String>,
+    insertion: Option<InsertionName>,
+    rate: Option<Quantity<MassRate>>,
+    region: Option<RegionTable>,
+    velocity: Option<[Quantity<Velocity>; 3]>,
+    stir: Option<Quantity<Velocity>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SieveTable {
+    radius: Quantity<Length>,
+    share: f64,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct LogNormalTable {
+    median: Quantity<Length>,
+    deviation: f64,
+    smallest: Quantity<Length>,
+    largest: Quantity<Length>,
+}
+
+/// A block (`low`, `high`) or an upright cylinder (`base`, `radius`, `height`).
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RegionTable {
+    low: Option<[Quantity<Length>; 3]>,
+    high: Option<[Quantity<Length>; 3]>,
+    base: Option<[Quantity<Length>; 3]>,
+    radius: Option<Quantity<Length>>,
+    height: Option<Quantity<Length>>,
+}
+
+/// Vector of an array of quantities, SI.
+pub(super) fn vector<D>(components: [Quantity<D>; 3]) -> Vector {
+    Vector::from(components.map(Quantity::si))
+}
+
+pub(super) fn check_groups(
+    document: &Document,
+    tables: OneOrMany<GroupTable>,
+    materials: &[GrainMaterial],
+) -> Result<Vec<Group>> {
+    let mut groups: Vec<Group> = Vec::new();
+    for (key, table) in tables.keyed("grains") {
+        let group = table.check(document, &key, materials)?;
+        if groups.iter().any(|other| other.name == group.name) {
+            let key = format!("{key}.name");
+            return Err(document.reject(&key, "must be given, and another one for every group"));
+        }
+        groups.push(group);
+    }
+    if groups.is_empty() {
+        return Err(document.reject("grains", "must hold at least one group of grains"));
+    }
+    Ok(groups)
+}
+
+impl GroupTable {
+    fn check(self, document: &Document, key: &str, materials: &[GrainMaterial]) -> Result<Group> {
+        let at = |name: &str| format!("{key}.{name}");
+        let insertion = self.insertion(document, key)?;
+        let region = match &self.region {
+            Some(region) => Some(region.check(document, &at("region"))?),
+            None if insertion == Insertion::Lattice => None,
+            None => {
+                let allowed = "must say where the grains come in: `low` and `high`, or `base`, `radius` and `height`";
+                return Err(document.reject(&at("region"), allowed));
+            }
+        };
+        Ok(Group {
+            name: self.name.clone().unwrap_or_else(|| "grains".to_owned()),
+            key: key.to_owned(),
+            amount: self.amount(document, key)?,
+            sizes: self.sizes(document, key)?,
+            material: self.material(document, key, materials)?,
+            insertion,
+            region,
+            velocity: self.velocity.map_or(Vector::ZERO, vector),
+            stir: self
+                .stir
+                .map_or(Ok(0.0), |stir| document.non_negative(&at("stir"), stir))?,
+        })
+    }
+
+    fn amount(&self, document: &Document, key: &str) -> Result<Amount> {
+        match (self.count, self.mass) {
+            (Some(0), None) => Err(document.reject(&format!("{key}.count"), "must be at least 1")),
+            (Some(count), None) => Ok(Amount::Count(count)),
+            (None, Some(mass)) => {
+                let mass = document.positive(&format!("{key}.mass"), mass)?;
+                Ok(Amount::Mass(mass))
+            }
+            _ => Err(document.reject(key, "must hold either `count` or `mass`")),
+        }
+    }
+
+    fn sizes(&self, document: &Document, key: &str) -> Result<Sizes> {
+        let at = |name: &str| format!("{key}.{name}");
+        let one_of = "must give the sizes in one way: `radius` (with `spread`, if wanted), `sieve` or `lognormal`";
+        let sizes = match (self.radius, &self.sieve, &self.lognormal) {
+            (Some(radius), None, None) => Sizes::Uniform {
+                mean: document.positive(&at("radius"), radius)?,
+                spread: document.check(
+                    &at("spread"),
+                    self.spread.unwrap_or(0.0),
+                    |s| (0.0..0.5).contains(&s),
+                    "must lie in [0, 0.5)",
+                )?,
+            },
+            (None, Some(classes), None) if !classes.is_empty() => {
+                let mut by_mass = Vec::new();
+                for (index, class) in classes.iter().enumerate() {
+                    let at = |name: &str| format!("{key}.sieve[{index}].{name}");
+                    let radius = document.positive(&at("radius"), class.radius)?;
+                    let must = "must be positive: the class's share of the mass";
+                    let share = document.check(&at("share"), class.share, |s| s > 0.0, must)?;
+                    by_mass.push((radius, share));
+                }
+                Sizes::sieve(&by_mass)
+            }
+            (None, None, Some(table)) => table.check(document, &at("lognormal"))?,
+            _ => return Err(document.reject(key, one_of)),
+        };
+        if self.spread.is_some() && self.radius.is_none() {
+            return Err(document.reject(&at("spread"), "needs `radius` beside it"));
+        }
+        let [smallest, largest] = sizes.limits();
+        if largest > 20.0 * smallest {
+            let allowed = "must span at most a factor of 20: neighbours are searched in cells of the largest grain";
+            return Err(document.reject(key, allowed));
+        }
+        Ok(sizes)
+    }
+
+    fn material(
+        &self,
+        document: &Document,
+        key: &str,
+        materials: &[GrainMaterial],
+    ) -> Result<usize> {
+        let key = format!("{key}.material");
+        let names = || {
+            let names: Vec<&str> = materials.iter().map(|m| &m.name[..]).collect();
+            names.join(", ")
+        };
+        match &self.material {
+            None if materials.len() == 1 => Ok(0),
+            None => Err(document.reject(&key, format!("must be one of {}", names()))),
+            Some(name) => materials
+                .iter()
+                .position(|material| material.name == *name)
+                .ok_or_else(|| document.reject(&key, format!("must be one of {}", names()))),
+        }
+    }
+
+    fn insertion(&self, document: &Document, key: &str) -> Result<Insertion> {
+        let key = format!("{key}.rate");
+        match (self.insertion.unwrap_or(InsertionName::Lattice), self.rate) {
+            (InsertionName::Stream, Some(rate)) => {
+                Ok(Insertion::Stream(document.positive(&key, rate)?))
+            }
+            (InsertionName::Stream, None) => Err(document.reject(
+                &key,
+                "must be there: the mass that comes in a second, e.g. \"5 g/s\"",
+            )),
+            (_, Some(_)) => Err(document.reject(&key, "belongs to `insertion = \"stream\"`")),
+            (InsertionName::Lattice, None) => Ok(Insertion::Lattice),
+            (InsertionName::Pour, None) => Ok(Insertion::Pour),
+        }
+    }
+}
+
+impl LogNormalTable {
+    fn check(&self, document: &Document, key: &str) -> Result<Sizes> {
+        let at = |name: &str| format!("{key}.{name}");
+        let median = document.positive(&at("median"), self.median)?;
+        let deviation = document.check(
+            &at("deviation"),
+            self.deviation,
+            |d| d > 0.0 && d <= 1.0,
+            "must lie in (0, 1]: the standard deviation of the logarithm of the radius",
+        )?;
+        let smallest = document.check(
+            &at("smallest"),
+            self.smallest.si(),
+            |r| r > 0.0 && r < median,
+            "must be positive and below the median",
+        )?;
+        let largest = document.check(
+            &at("largest"),
+            self.largest.si(),
+            |r| r > median,
+            "must be above the median",
+        )?;
+        Ok(Sizes::LogNormal {
+            median,
+            deviation,
+            limits: [smallest, largest],
+        })
+    }
+}
+
+impl RegionTable {
+    pub(super) fn check(&self, document: &Document, key: &str) -> Result<Region> {
+        match (self.low, self.high, self.base, self.radius, self.height) {
+            (Some(low), Some(high), None, None, None) => {
+                let (low, high) = (vector(low), vector(high));
+                if !(high - low).cmpgt(Vector::ZERO).all() {
+                    let allowed = "must lie above `low` along every axis";
+                    return Err(document.reject(&format!("{key}.high"), allowed));
+                }
+                Ok(Region::Block { low, high })
+            }
+            (None, None, Some(base), Some(radius), Some(height)) => Ok(Region::Cylinder {
+                base: vector(base),
+                radius: document.positive(&format!("{key}.radius"), radius)?,
+                height: document.positive(&format!("{key}.height"), height)?,
+            }),
+            _ => Err(document.reject(
+                key,
+                "must hold `low` and `high` (a block), or `base`, `radius` and `height` (an upright cylinder)",
+            )),
+        }
+    }
+}
