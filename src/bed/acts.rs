@@ -1,5 +1,6 @@
 //! Acts: how each kind of stage begins, changes the bed from step to step, and ends.
 
+use super::gauge::Gauge;
 use super::measure::Packing;
 use super::protocol::{Place, Run};
 use super::scene::{Change, Duration, RunStage, Stage};
@@ -43,6 +44,7 @@ impl Run<'_> {
             }
         };
         self.set_clock()?;
+        self.gauges.iter_mut().for_each(Gauge::begin);
         let steps = matches!(stage, Stage::Relax { .. })
             || matches!(stage, Stage::Run(run) if matches!(run.longest, Duration::Steps(_)));
         self.place = Place {
@@ -181,7 +183,11 @@ impl Run<'_> {
             let body = bed.machine().find(body);
             body.is_some_and(|body| bed.force_on(body).length() > *above)
         });
-        slow || calm || stressed || pushed
+        let dry = until.flow_ended.is_some_and(|time| {
+            let ended = |gauge: &Gauge| gauge.flow_ended(self.time(), time);
+            self.gauges.iter().any(ended)
+        });
+        slow || calm || stressed || pushed || dry
     }
 
     /// What a stage does to the bed in every step.

@@ -111,14 +111,17 @@ pub fn cone(bottom: f64, top: f64, height: f64, sides: u32) -> Solid {
     let vertices = rim(bottom, -0.5 * height)
         .chain(rim(top, 0.5 * height))
         .collect();
-    let triangles = (0..sides)
-        .flat_map(|side| {
-            let next = (side + 1) % sides;
-            [
-                [side, next, sides + next],
-                [side, sides + next, sides + side],
-            ]
-        })
+    let pairs = (0..sides).flat_map(|side| {
+        let next = (side + 1) % sides;
+        [
+            ([side, next, sides + next], bottom),
+            ([side, sides + next, sides + side], top),
+        ]
+    });
+    // at a tip one triangle of each pair has no area
+    let triangles = pairs
+        .filter(|(_, radius)| *radius > 0.0)
+        .map(|(triangle, _)| triangle)
         .collect();
     Solid::Mesh {
         vertices,

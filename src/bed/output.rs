@@ -2,6 +2,7 @@
 
 use super::bodies::Solid;
 use super::compose::AnyBed;
+use super::gauge::Finding;
 use super::protocol::Observer;
 use super::row::{Row, closure};
 use super::vtp::{Column, PolyData, collection};
@@ -51,6 +52,10 @@ pub struct Summary {
     pub contact_stiffness: f64,
     /// The same while the packing was made.
     pub settling_stiffness: f64,
+    /// What the measures of the scene have found.
+    pub findings: Vec<Finding>,
+    /// What must be known before the figures are used.
+    pub warnings: Vec<String>,
     /// How the run ended.
     pub status: &'static str,
 }
@@ -107,6 +112,8 @@ impl Summary {
             plastic_share: last.map_or(0.0, |r| r.plastic_j / dissipated(r).max(f64::MIN_POSITIVE)),
             contact_stiffness: counts.contact_stiffness,
             settling_stiffness: counts.settling_stiffness,
+            findings: Vec::new(),
+            warnings: Vec::new(),
             status: "ok",
         }
     }

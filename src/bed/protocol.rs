@@ -2,6 +2,7 @@
 
 use super::compose::AnyBed;
 use super::feed::Feed;
+use super::gauge::Gauge;
 use super::measure::Packing;
 use super::room::{PISTON, Room};
 use super::row::{Progress, Row, View};
@@ -74,6 +75,8 @@ pub struct Run<'a> {
     pub tally: Tally,
     /// Grains to come.
     pub feed: Feed,
+    /// Measures under way.
+    pub gauges: Vec<Gauge>,
     pub(super) scene: &'a Scene,
     pub(super) room: Room,
     observer: &'a mut dyn Observer,
@@ -99,6 +102,7 @@ impl<'a> Run<'a> {
             rows: Vec::new(),
             tally: Tally::default(),
             feed,
+            gauges: scene.measures.iter().map(Gauge::new).collect(),
             scene,
             room,
             observer,
@@ -127,6 +131,9 @@ impl<'a> Run<'a> {
         loop {
             let survey = self.prepare()?;
             self.note(stage);
+            for gauge in &mut self.gauges {
+                gauge.read(self.bed.as_ref(), survey.is_some());
+            }
             self.sample(stage)?;
             if self.ends(stage, survey.as_ref())? {
                 self.place.begun = false;

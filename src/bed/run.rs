@@ -25,6 +25,8 @@ use std::time::Instant;
 /// Distance up to which neighbours are listed, over the largest radius: the best of a scan between lists that are
 /// short and lists that last.
 const SKIN: f64 = 0.15;
+/// Overlap over diameter above which a warning is given: contacts of one grain are then no longer apart.
+const DEEP: f64 = 0.05;
 
 /// How to run a scene.
 pub struct Options<'a> {
@@ -309,7 +311,11 @@ fn finish(
         contact_stiffness: softening,
         settling_stiffness,
     };
-    let summary = Summary::new(name, &run.rows, counts);
+    let mut summary = Summary::new(name, &run.rows, counts);
+    let findings = run.gauges.iter();
+    let findings = findings.flat_map(|gauge| gauge.findings(run.bed.as_ref(), scene));
+    summary.findings = findings.collect();
+    summary.warnings = warnings(scene, &run);
     let folder = folder(options, name);
     write_rows(&folder.join("bed.csv"), options.provenance, &run.rows)?;
     summary.write(&folder)?;
@@ -319,6 +325,33 @@ fn finish(
         summary,
         portrait,
     })
+}
+
+/// What a user must know before the figures are used.
+fn warnings(scene: &Scene, run: &Run) -> Vec<String> {
+    let (tally, mut warnings) = (&run.tally, Vec::new());
+    if tally.lost > 0 {
+        warnings.push(format!(
+            "{} grains were outside the room; they are still listed in the files",
+            tally.lost
+        ));
+    }
+    if tally.beyond_validity > 0 {
+        warnings.push(format!(
+            "{} contacts at once were flattened beyond the range of the law: it was extrapolated",
+            tally.beyond_validity
+        ));
+    }
+    if tally.max_overlap_ratio > DEEP {
+        warnings.push(format!(
+            "grains overlapped by up to {:.1} % of a diameter: contacts influence each other there",
+            100.0 * tally.max_overlap_ratio
+        ));
+    }
+    if !run.feed.is_done(scene) {
+        warnings.push("not all grains came in".to_owned());
+    }
+    warnings
 }
 
 fn folder(options: &Options, name: &str) -> PathBuf {

@@ -1,11 +1,12 @@
 //! `bed`: a scene file to the files of its beds.
 
 use super::{Context, Verdict, output_folder, print};
+use crate::bed::gauge::Finding;
 use crate::bed::run::{BedReport, Options, run_scene};
-use crate::bed::scene::Scene;
+use crate::bed::scene::{Scene, Stage};
 use crate::cli::BedArgs;
 use crate::law::LawFile;
-use crate::unit::engineering;
+use crate::unit::{engineering, significant};
 use crate::{Error, Result};
 use indicatif::ProgressBar;
 use std::fmt::Write;
@@ -23,7 +24,8 @@ pub fn run(args: &BedArgs, context: &Context) -> Result<Verdict> {
     let law = args.law.as_deref().map(LawFile::read).transpose()?;
     let folder = output_folder(args.out.as_deref(), &scene.name)?;
     let report = simulate(&scene, law.as_ref(), &folder, args.seed, context)?;
-    print(&summary(&report))?;
+    let compressed = |stage: &Stage| matches!(stage, Stage::Compress { .. });
+    print(&summary(&report, scene.stages.iter().any(compressed)))?;
     Ok(verdict(&report))
 }
 
@@ -75,8 +77,65 @@ fn on_a_worker<T: Send>(work: impl FnOnce() -> Result<T> + Send) -> Result<T> {
     result
 }
 
-/// Table of what came out, as text.
-fn summary(report: &BedReport) -> String {
+/// What came out, as text: a table of the laws, then what the measures have found and what has to be known.
+fn summary(report: &BedReport, compressed: bool) -> String {
+    let mut text = if compressed {
+        compression(report)
+    } else {
+        journey(report)
+    };
+    for run in &report.laws {
+        for finding in &run.summary.findings {
+            let _ = write!(
+                text,
+                "{:<22} {:<24} {}",
+                run.law,
+                finding.name,
+                value(finding)
+            );
+            let _ = match &finding.note[..] {
+                "" => writeln!(text),
+                note => writeln!(text, "  ({note})"),
+            };
+        }
+        for warning in &run.summary.warnings {
+            let _ = writeln!(text, "{:<22} warning: {warning}", run.law);
+        }
+    }
+    let softening = report
+        .laws
+        .first()
+        .map_or(1.0, |run| run.summary.contact_stiffness);
+    if softening < 1.0 {
+        let _ = writeln!(
+            text,
+            "contacts are {softening} times as stiff as the material's"
+        );
+    }
+    text
+}
+
+/// Value of a finding with its unit, four digits.
+fn value(finding: &Finding) -> String {
+    match finding.unit {
+        "m" | "kg" | "kg/s" => in_mm_or_g(finding),
+        "" => significant(finding.value, 4),
+        unit => format!("{} {unit}", significant(finding.value, 4)),
+    }
+}
+
+/// Lengths and masses in the units they are read in: mm and g.
+fn in_mm_or_g(finding: &Finding) -> String {
+    let (unit, prefix) = match finding.unit {
+        "m" => ("mm", 1e3),
+        "kg" => ("g", 1e3),
+        _ => ("g/s", 1e3),
+    };
+    format!("{} {unit}", significant(prefix * finding.value, 4))
+}
+
+/// Table of beds that were compressed.
+fn compression(report: &BedReport) -> String {
     let mut text = format!(
         "{:<22} {:>10} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8}\n",
         "law", "max stress", "residual", "contacts", "plastic", "overlap", "closure", "seconds"
@@ -93,6 +152,31 @@ fn summary(report: &BedReport) -> String {
             100.0 * s.plastic_share,
             100.0 * s.max_overlap_ratio,
             s.energy_closure,
+            s.wall_s,
+        );
+    }
+    text
+}
+
+/// Table of beds that went through other stages.
+fn journey(report: &BedReport) -> String {
+    let mut text = format!(
+        "{:<22} {:>8} {:>10} {:>10} {:>9} {:>9} {:>9} {:>6} {:>8}\n",
+        "law", "grains", "time", "time step", "plastic", "overlap", "closure", "lost", "seconds"
+    );
+    for run in &report.laws {
+        let s = &run.summary;
+        let _ = writeln!(
+            text,
+            "{:<22} {:>8} {:>10} {:>10} {:>8.1}% {:>8.2}% {:>9.1e} {:>6} {:>8.1}",
+            run.law,
+            s.grains,
+            engineering(s.time_s, "s", 3),
+            engineering(s.time_step_s, "s", 3),
+            100.0 * s.plastic_share,
+            100.0 * s.max_overlap_ratio,
+            s.energy_closure,
+            s.lost_grains,
             s.wall_s,
         );
     }

@@ -4,6 +4,7 @@ mod body;
 mod drive;
 mod group;
 mod material;
+mod measure;
 mod settings;
 mod stage;
 mod stages;
@@ -11,17 +12,20 @@ mod written;
 
 pub use group::{Amount, Group, Insertion};
 pub use material::{GrainMaterial, LawChoice, OWN};
+pub use measure::{Measure, Orifice, Plane};
 pub use settings::{ContactTable, OutputTable, TimeStep};
 pub use stage::{Change, Duration, Move, RunStage, Stage, Until};
 
 use super::bodies::{Body, Mobility, Solid};
+use super::mesh::shortest_edge;
 use super::room::{PISTON, Room, WALLS};
 use crate::Result;
 use crate::document::Document;
-use crate::unit::{Length, Quantity};
+use crate::unit::{Length, Quantity, engineering};
 use body::{BodyTable, Files, check_bodies};
 use group::{GroupTable, RegionTable, check_groups};
 use material::{SceneMaterialTable, check_laws, check_materials};
+use measure::{MeasureTable, check_measures};
 use parry3d::math::Vector;
 use serde::Deserialize;
 use settings::TimeTable;
@@ -30,6 +34,9 @@ use stages::{Cast, StageTable, check_stages};
 use std::collections::BTreeMap;
 use std::path::Path;
 use written::{Gravity, OneOrMany};
+
+/// Shortest edge of a mesh over the smallest radius.
+const SHORTEST_EDGE: f64 = 0.02;
 
 /// Name of the law that comes from a law file.
 pub const FITTED: &str = "fitted";
@@ -65,6 +72,8 @@ pub struct Scene {
     pub time: TimeStep,
     /// Stages, in order.
     pub stages: Vec<Stage>,
+    /// Measures.
+    pub measures: Vec<Measure>,
     /// Files.
     pub output: OutputTable,
 }
@@ -105,6 +114,8 @@ struct SceneFile {
     #[serde(default)]
     time: TimeTable,
     stage: Vec<StageTable>,
+    #[serde(default)]
+    measure: Vec<MeasureTable>,
     #[serde(default)]
     output: OutputTable,
 }
@@ -179,9 +190,11 @@ impl Scene {
             bodies,
             time: file.time.check(document)?,
             stages,
+            measures: check_measures(document, file.measure, &cast.bodies)?,
             output: file.output.check(document)?,
         };
         scene.check_room()?;
+        scene.check_meshes()?;
         scene.check_materials()?;
         scene.check_moves()?;
         Ok(scene)
@@ -262,6 +275,32 @@ impl Scene {
                     key,
                     "must be at least two grain diameters, or no grain fits without overlap",
                 ));
+            }
+        }
+        Ok(())
+    }
+
+    /// That no mesh has edges so short, compared with the grains, that its touched points cannot be told apart.
+    fn check_meshes(&self) -> Result<()> {
+        let [smallest, _] = self.radii();
+        for (index, body) in self.bodies.iter().enumerate() {
+            let Solid::Mesh {
+                vertices,
+                triangles,
+            } = &body.solid
+            else {
+                continue;
+            };
+            let edge = shortest_edge(vertices, triangles);
+            if edge < SHORTEST_EDGE * smallest {
+                let allowed = format!(
+                    "must not be so much smaller than the grains: an edge of {} against a radius of {}; merge short edges, or look at `scale`",
+                    engineering(edge, "m", 2),
+                    engineering(smallest, "m", 2)
+                );
+                return Err(self
+                    .document
+                    .reject(&format!("body[{index}].mesh"), allowed));
             }
         }
         Ok(())
