@@ -5,7 +5,7 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use impactlaw::impact::kernel::Purpose;
 use impactlaw::impact::patch::Frictionless;
 use impactlaw::impact::setup::build;
-use impactlaw::impact::solid;
+use impactlaw::impact::solid::{self, Mesh};
 use impactlaw::material::flow::PerfectlyPlastic;
 use impactlaw::material::stress::{Constitutive, Elastic, J2, Moduli};
 use impactlaw::plan::{Geometry, Grid};
@@ -52,7 +52,12 @@ fn solid_sweep<M: Constitutive<Solid>>(c: &mut Criterion, name: &str, material: 
         fine: 0.04,
         ..grid(2)
     };
-    let mut model = solid::build(&coarse, Geometry::Quarter, material, Frictionless, 1e-9);
+    let mesh = Mesh {
+        grid: &coarse,
+        layout: impactlaw::scheme::Layout::Fitted,
+        geometry: Geometry::Quarter,
+    };
+    let mut model = solid::build::<_, _, 2, 27>(mesh, material, Frictionless, 1e-9);
     let nodes = model.mass.len();
     let u: Vec<[f64; 3]> = (0..nodes)
         .map(|n| [0.0, 0.0, 1e-3 * (0.1 * n as f64).sin()])

@@ -5,16 +5,16 @@ use super::contact::Wall;
 use super::patch::{Coulomb, Frictionless};
 use super::record::Record;
 use super::remap::{Apic, Blend, Carriers};
-use super::run::Run;
+use super::run::{Run, incident};
 use super::setup::{self, Model};
-use super::solid;
+use super::solid::{self, Mesh};
 use super::updated::Updated;
 use crate::material::Flow;
 use crate::material::flow::{FlowStress, LinearHardening, PerfectlyPlastic};
 use crate::material::stress::{Constitutive, J2, Moduli};
 use crate::plan::{Geometry, Plan};
 use crate::scheme::{Reference, Transfer};
-use crate::space::{Axisymmetric, Solid};
+use crate::space::{Axisymmetric, Solid, Space};
 use crate::tape::{Checkpoint, Keeper};
 
 /// What is to be run.
@@ -55,21 +55,43 @@ pub(super) fn run_geometry<M: Constitutive<Axisymmetric> + Constitutive<Solid>>(
 ) -> Vec<Record> {
     let &Job { plan, speed, .. } = job;
     let tolerance = CONTACT_TOLERANCE * speed * plan.angle.cos();
-    let (grid, geometry) = (&plan.grid, plan.geometry);
-    if geometry == Geometry::Axisymmetric {
-        run_degree(material, job)
+    let mesh = Mesh {
+        grid: &plan.grid,
+        layout: plan.scheme.layout,
+        geometry: plan.geometry,
+    };
+    if plan.geometry == Geometry::Axisymmetric {
+        run_section(material, job)
     } else if plan.friction > 0.0 {
         let coefficient = plan.friction;
-        let model = solid::build(grid, geometry, material, Coulomb { coefficient }, tolerance);
+        let model = solid::build::<_, _, 2, 27>(mesh, material, Coulomb { coefficient }, tolerance);
         Run::new(model, (), plan, speed).finish(job.keeper())
     } else {
-        let model = solid::build(grid, geometry, material, Frictionless, tolerance);
-        Run::new(model, (), plan, speed).finish(job.keeper())
+        run_solid(mesh, material, job)
     }
 }
 
-/// The spline degree that the plan calls for.
-fn run_degree<M: Constitutive<Axisymmetric>>(material: M, job: &Job) -> Vec<Record> {
+/// Three dimensions without friction: the spline degree that the plan calls for.
+fn run_solid<M: Constitutive<Solid>>(mesh: Mesh, material: M, job: &Job) -> Vec<Record> {
+    let tolerance = CONTACT_TOLERANCE * job.speed * job.plan.angle.cos();
+    match mesh.grid.degree {
+        1 => run_transfer(
+            solid::build::<_, _, 1, 8>(mesh, material, Frictionless, tolerance),
+            job,
+        ),
+        2 => run_transfer(
+            solid::build::<_, _, 2, 27>(mesh, material, Frictionless, tolerance),
+            job,
+        ),
+        _ => run_transfer(
+            solid::build::<_, _, 3, 64>(mesh, material, Frictionless, tolerance),
+            job,
+        ),
+    }
+}
+
+/// The section: the spline degree that the plan calls for.
+fn run_section<M: Constitutive<Axisymmetric>>(material: M, job: &Job) -> Vec<Record> {
     let &Job { plan, speed, .. } = job;
     let (grid, layout) = (&plan.grid, plan.scheme.layout);
     if plan.scheme.reference == Reference::Present {
@@ -97,15 +119,16 @@ fn run_degree<M: Constitutive<Axisymmetric>>(material: M, job: &Job) -> Vec<Reco
 }
 
 /// The transfer of velocity that the plan calls for.
-fn run_transfer<M, W, const N: usize>(model: Model<Axisymmetric, M, W, N>, job: &Job) -> Vec<Record>
+fn run_transfer<S, M, W, const N: usize>(model: Model<S, M, W, N>, job: &Job) -> Vec<Record>
 where
-    M: Constitutive<Axisymmetric>,
-    W: Wall<Axisymmetric>,
+    S: Space,
+    M: Constitutive<S>,
+    W: Wall<S>,
 {
     let &Job { plan, speed, .. } = job;
     let points = model.points.unpacked();
     let carriers = || {
-        let start = [0.0, -speed];
+        let start = incident::<S>(plan, speed);
         Carriers::new(points, model.points.offsets(), model.mass.len(), start)
     };
     match plan.scheme.transfer {

@@ -1,7 +1,9 @@
 //! Lattice: material points of equal spacing kept where they lie inside the sphere, as most material point codes fill a
 //! body. Its surface is a staircase; the outermost points touch the wall as discs of the spacing.
 
+use crate::impact::ball::BallPoint;
 use crate::impact::body::{SectionPoint, SurfacePoint};
+use crate::plan::Geometry;
 
 /// Square lattice of `count` points a diameter over the unit half disc; areas are the squares of the spacing.
 #[must_use]
@@ -42,6 +44,52 @@ pub fn outermost(count: f64) -> Vec<SurfacePoint> {
     all
 }
 
+/// Cubic lattice of `count` points a diameter over a quarter (x, y >= 0) or half (y >= 0) of the unit ball, symmetric about
+/// its planes; volumes are the cubes of the spacing.
+#[must_use]
+pub fn ball(count: f64, geometry: Geometry) -> Vec<BallPoint> {
+    let spacing = 2.0 / count;
+    let most = count.ceil() as i64;
+    let least = if geometry == Geometry::Half { -most } else { 0 };
+    let place = |k: i64| (k as f64 + 0.5) * spacing;
+    let volume = spacing.powi(3);
+    let mut all = Vec::new();
+    for k in 0..most {
+        for j in 0..most {
+            for i in least..most {
+                let position = [place(i), place(j), place(k)];
+                if is_in_ball(position) {
+                    all.push(BallPoint { position, volume });
+                }
+            }
+        }
+    }
+    all
+}
+
+fn is_in_ball([x, y, z]: [f64; 3]) -> bool {
+    is_inside(x.hypot(y), z)
+}
+
+/// Points of [`ball`] in its lower half that miss a neighbour below or farther out.
+#[must_use]
+pub fn outermost_ball(count: f64, geometry: Geometry) -> Vec<[f64; 3]> {
+    let spacing = 2.0 / count;
+    let is_outer = |[x, y, z]: [f64; 3]| {
+        let neighbours = [
+            [x, y, z - spacing],
+            [x + spacing * x.signum(), y, z],
+            [x, y + spacing * y.signum(), z],
+        ];
+        z < 1.0 && !neighbours.into_iter().all(is_in_ball)
+    };
+    ball(count, geometry)
+        .iter()
+        .map(|p| p.position)
+        .filter(|x| is_outer(*x))
+        .collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -54,6 +102,20 @@ mod tests {
         for count in [13.0, 25.0, 50.0, 80.0] {
             let error = volume(count) / (4.0 / 3.0 * PI) - 1.0;
             assert!(error.abs() < 1.0 / count, "{count}: {error}");
+        }
+    }
+
+    #[test]
+    fn a_quarter_and_a_half_of_the_cubic_lattice_hold_their_shares() {
+        let volume = |geometry| -> f64 { ball(50.0, geometry).iter().map(|p| p.volume).sum() };
+        let quarter = volume(Geometry::Quarter);
+        assert!((quarter / (PI / 3.0) - 1.0).abs() < 1e-3, "{quarter}");
+        assert!((volume(Geometry::Half) / quarter - 2.0).abs() < 1e-12);
+        for geometry in [Geometry::Quarter, Geometry::Half] {
+            for [x, y, z] in outermost_ball(50.0, geometry) {
+                let distance = (x * x + y * y + (z - 1.0) * (z - 1.0)).sqrt();
+                assert!(z < 1.0 && distance <= 1.0 && distance > 1.0 - 2.0 * 0.04);
+            }
         }
     }
 

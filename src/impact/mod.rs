@@ -23,6 +23,7 @@ pub mod setup;
 pub mod solid;
 pub mod timestep;
 pub mod updated;
+pub mod volume;
 
 use self::choice::Job;
 use self::record::Record;

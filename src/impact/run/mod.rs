@@ -358,7 +358,7 @@ where
 }
 
 /// Velocity before an impact at `speed`.
-fn incident<S: Space>(plan: &Plan, speed: f64) -> S::Vector {
+pub(super) fn incident<S: Space>(plan: &Plan, speed: f64) -> S::Vector {
     let mut incident = S::Vector::default();
     incident.as_mut()[S::NORMAL] = -speed * plan.angle.cos();
     if let Some(axis) = S::SLIDING {
