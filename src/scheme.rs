@@ -19,8 +19,8 @@ pub enum Transfer {
 pub enum Layout {
     /// Gauss points of the cells clipped by the exact sphere; contact on its exact surface; graded grid.
     Fitted,
-    /// Square lattice of this many points a diameter, kept where they lie inside the sphere; the outermost touch the
-    /// wall as discs of the lattice's spacing.
+    /// Square (in three dimensions cubic) lattice of this many points a diameter, kept where they lie inside the sphere; the
+    /// outermost touch the wall as discs of the lattice's spacing.
     Lattice(f64),
 }
 
@@ -29,7 +29,8 @@ pub enum Layout {
 pub enum Reference {
     /// The undeformed one: weights never change (total Lagrangian).
     Initial,
-    /// The present one: points move through the grid and weights are computed every step (updated Lagrangian).
+    /// The present one: points move through the grid and weights are computed every step (updated Lagrangian); in the
+    /// axisymmetric section only.
     Present,
 }
 

@@ -8,13 +8,18 @@ use std::path::Path;
 
 /// An elastic impact at a fiftieth of the wave speed on a coarse grid.
 fn oblique(degrees: f64, friction: f64) -> (Case, Plan) {
+    elastic(0.3, 20.0, degrees, friction)
+}
+
+/// An elastic impact of a material with c0 = 1000 m/s on a coarse grid.
+fn elastic(poisson: f64, velocity: f64, degrees: f64, friction: f64) -> (Case, Plan) {
     let text = format!(
         "[particle]\nradius = \"1 mm\"\n[material]\ndensity = \"1000 kg/m3\"\nyoung_modulus = \"1 GPa\"\n\
-         poisson_ratio = 0.3\n[impact]\nvelocities = [\"20 m/s\"]\nangle = \"{degrees} deg\"\n\
+         poisson_ratio = {poisson}\n[impact]\nvelocities = [\"{velocity} m/s\"]\nangle = \"{degrees} deg\"\n\
          [wall]\nfriction = {friction}\n[accuracy]\ntolerance = 0.1\n"
     );
     let case = Case::parse(&text, Path::new("oblique.toml")).unwrap();
-    let mut plan = plan(&case, 20.0);
+    let mut plan = plan(&case, velocity);
     if plan.geometry != Geometry::Axisymmetric {
         plan.grid.fine = plan.estimate.contact_radius / 4.0;
         plan.grid.growth = 1.6;
@@ -55,18 +60,107 @@ fn full_sliding_gives_the_friction_impulse_and_the_spin_that_follows_from_it() {
     assert_eq!(plan.geometry, Geometry::Half);
     let s = run(&case, &plan).summary;
     let t = s.tangential.unwrap();
-    assert!(change(t.impulse_ratio, 0.2) < 0.01, "{}", t.impulse_ratio);
+    assert!(change(t.impulse_ratio, 0.2) < 0.004, "{}", t.impulse_ratio);
     let normal = 20.0 * 70f64.to_radians().cos() * (1.0 + s.restitution);
     let lost = t.incident_velocity_m_s - t.velocity_m_s;
     assert!(
         change(lost, t.impulse_ratio * normal) < 2e-3,
         "{lost} {normal}"
     );
-    // the lever is shorter than R by the flattening
+    // the lever is shorter than R by the flattening; the inertia of these coarse cells is up to 4 % above 2/5 m R^2
     let lever = t.angular_velocity_rad_s * case.radius / (2.5 * lost);
     assert!(
-        lever < 1.0 && lever > 1.0 - s.max_displacement_m / case.radius,
+        lever < 1.0 && lever > 0.96 - s.max_displacement_m / case.radius,
         "{lever}"
+    );
+}
+
+#[test]
+fn full_sliding_gives_mu_whatever_the_cells_and_the_material() {
+    // elastic on rigid with mu at once after F is ill-posed: 10 to 25 % of the impulse went missing here, more with smaller
+    // cells
+    for (poisson, friction, cells) in [
+        (0.35, 0.5, 3.5),
+        (0.35, 0.5, 6.0),
+        (0.45, 0.5, 4.0),
+        (0.3, 1.0, 4.0),
+    ] {
+        let angle = (7.0 * friction * 1.5f64).atan().to_degrees();
+        let (case, mut plan) = elastic(poisson, 20.0, angle, friction);
+        plan.grid.fine = plan.estimate.contact_radius / cells;
+        let t = run(&case, &plan).summary.tangential.unwrap();
+        assert!(
+            change(t.impulse_ratio, friction) < 0.004,
+            "nu {poisson}, a/{cells}: {} of {friction}",
+            t.impulse_ratio
+        );
+    }
+}
+
+/// Tangential restitution of an elastic sphere on a rigid wall by the reduction of the contact to independent springs, exact
+/// for uncoupled Hertz and Cattaneo-Mindlin contacts (Popov and Hess 2015): what Maw, Barber and Fawcett (1976) computed.
+/// Unit radius, density and modulus.
+fn maw_barber_fawcett(nu: f64, mu: f64, normal: f64, along: f64) -> f64 {
+    const SPRINGS: usize = 200;
+    let mass = 4.0 / 3.0 * std::f64::consts::PI;
+    let stiff = 1.0 / (1.0 - nu * nu);
+    let shear = 4.0 / (2.0 * (1.0 + nu) * (2.0 - nu));
+    let deepest = (15.0 * mass * normal * normal / (16.0 * stiff)).powf(0.4);
+    let width = 1.02 * deepest.sqrt() / SPRINGS as f64;
+    let dt = 2.94 * deepest / normal / 4000.0;
+    let mut tangential = [0.0f64; SPRINGS];
+    let (mut approach, mut speed, mut slip) = (0.0, normal, along);
+    loop {
+        let (mut press, mut drag) = (0.0, 0.0);
+        for (k, t) in tangential.iter_mut().enumerate() {
+            let x = (k as f64 + 0.5) * width;
+            let force = (stiff * width * (approach - x * x)).max(0.0);
+            *t = (*t + shear * width * slip * dt).clamp(-mu * force, mu * force);
+            press += 2.0 * force;
+            drag += 2.0 * *t;
+        }
+        speed -= press / mass * dt;
+        slip -= 3.5 * drag / mass * dt;
+        approach += speed * dt;
+        if approach <= 0.0 {
+            return -slip / along;
+        }
+    }
+}
+
+#[test]
+fn tangential_restitution_over_the_angle_has_the_shape_of_maw_barber_and_fawcett() {
+    // The theory is for contacts small against the sphere whose normal and tangential tractions do not couple. A sticking
+    // impact gives back more here: its phase of some two pi feels every per cent of stiffness. At delta/R = 0.01 the excess
+    // was 0.24, 0.31 and 0.41 for nu = 0.48, 0.35 and 0; it falls with the contact radius, to about 0.07, 0.14 and 0.24 in
+    // the limit, as the coupling (1 - 2 nu)/(2 - 2 nu) of an elastic body on a rigid one does.
+    let (nu, mu, velocity) = (0.42, 0.3, 2.0);
+    let mut back = Vec::new();
+    for degrees in [15.0, 42.0, 72.0f64] {
+        let (case, mut plan) = elastic(nu, velocity, degrees, mu);
+        plan.grid.growth = 1.5;
+        plan.grid.coarse = 0.16;
+        let t = run(&case, &plan).summary.tangential.unwrap();
+        let e = t.restitution.unwrap();
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        let speed = velocity / 1000.0;
+        let theory = maw_barber_fawcett(nu, mu, speed * cos, speed * sin);
+        println!(
+            "{degrees} deg: {e:.3}, theory {theory:.3}, impulse ratio {:.4}",
+            t.impulse_ratio
+        );
+        back.push((e, theory));
+    }
+    for (e, theory) in &back[..2] {
+        assert!((-0.02..0.3).contains(&(e - theory)), "{back:?}");
+    }
+    // most is given back where the contact sticks for half of the time; beyond, sliding takes it
+    assert!(back[1].0 > back[0].0 && back[1].0 > back[2].0, "{back:?}");
+    // full sliding: e_t = 7 mu / tan(theta) - 1 for a restitution of 1
+    let closed = 7.0 * mu / 72f64.to_radians().tan() - 1.0;
+    assert!(
+        (back[2].1 - closed).abs() < 1e-3 && (back[2].0 - closed).abs() < 0.02,
+        "{back:?}"
     );
 }
 

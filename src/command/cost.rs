@@ -3,10 +3,13 @@
 use super::{Context, Verdict, output_folder, print};
 use crate::case::Case;
 use crate::cli::CostArgs;
+use crate::cost::accuracy::{self, Line};
+use crate::cost::thesis::{self, Comparison};
 use crate::cost::{Effort, Finished, Footprint, Pulse, Row, Rung, Summary, mark_front, rungs};
 use crate::curve::{Impact, Status};
 use crate::files::{write_atomic, write_rows};
 use crate::impact::simulate;
+use crate::plan::severity;
 use crate::report::chart::{Chart, Mark, Series};
 use crate::report::figure::Figure;
 use crate::report::palette::Role;
@@ -30,6 +33,7 @@ pub fn run(args: &CostArgs, context: &Context) -> Result<Verdict> {
         true => &case.velocities[case.velocities.len() - 1..],
         false => &case.velocities[..],
     };
+    let mut lines = Vec::new();
     for &velocity in speeds {
         let job = Job {
             case: &case,
@@ -37,8 +41,15 @@ pub fn run(args: &CostArgs, context: &Context) -> Result<Verdict> {
             out: &out,
             provenance: context.provenance(&case.hash),
         };
-        job.run(args, longest, context)?;
+        let rows = job.run(args, longest, context)?;
+        lines.push(Line::new(&rows, severity(&case.material, velocity)));
     }
+    let provenance = context.provenance(&case.hash);
+    write_rows(&out.join("cost_accuracy.csv"), &provenance, &lines)?;
+    let text = accuracy::markdown(&lines);
+    let markdown = format!("<!-- {provenance} -->\n{text}");
+    write_atomic(&out.join("cost_accuracy.md"), markdown.as_bytes())?;
+    print(&text)?;
     Ok(Verdict::Met)
 }
 
@@ -51,7 +62,7 @@ struct Job<'a> {
 }
 
 impl Job<'_> {
-    fn run(&self, args: &CostArgs, longest: f64, context: &Context) -> Result<()> {
+    fn run(&self, args: &CostArgs, longest: f64, context: &Context) -> Result<Vec<Row>> {
         let effort = if args.quick {
             Effort::Quick
         } else {
@@ -76,6 +87,7 @@ impl Job<'_> {
         let elastic = !reference.plan.plastic;
         let hertz = elastic.then(|| Pulse::hertz(self.case, self.velocity));
         let mut rows = vec![Row::new(reference, &finest, &pulse, hertz.as_ref())];
+        let mut pulses = vec![pulse.clone()];
         let mut left_out = Vec::new();
         for rung in wanted {
             bar.inc(1);
@@ -85,10 +97,21 @@ impl Job<'_> {
             }
             let done = self.finished(rung)?;
             rows.push(Row::new(rung, &done, &pulse, hertz.as_ref()));
+            pulses.push(Pulse::of(&done.impact));
         }
         bar.finish_and_clear();
         mark_front(&mut rows);
-        self.write(&rows, &left_out)
+        let unit = hertz.filter(|_| thesis::is_its_case(self.case, self.velocity));
+        let tables = unit.map(|unit| {
+            let comparison = Comparison {
+                rows: &rows,
+                pulses: &pulses,
+                unit: &unit,
+            };
+            comparison.markdown()
+        });
+        self.write(&rows, &left_out, tables.as_deref())?;
+        Ok(rows)
     }
 
     /// Folder of a run, named after all that decides its outcome.
@@ -100,7 +123,7 @@ impl Job<'_> {
             self.case.radius,
             rung.plan.grid,
             rung.plan.scheme,
-            rung.plan.estimate,
+            (rung.plan.geometry, rung.plan.estimate),
             rung.plan.velocity
         );
         let hash = Sha256::digest(text.as_bytes());
@@ -134,7 +157,7 @@ impl Job<'_> {
         kept(&folder)
     }
 
-    fn write(&self, rows: &[Row], left_out: &[(String, f64)]) -> Result<()> {
+    fn write(&self, rows: &[Row], left_out: &[(String, f64)], thesis: Option<&str>) -> Result<()> {
         let speed = significant(self.velocity, 4);
         let name = |end: &str| self.out.join(format!("cost_V{speed}{end}"));
         write_rows(&name(".csv"), &self.provenance, rows)?;
@@ -142,6 +165,7 @@ impl Job<'_> {
             case: &self.case.name,
             rows,
             left_out,
+            thesis,
         };
         let text = summary.markdown();
         let markdown = format!("<!-- {} -->\n{text}", self.provenance);
@@ -199,11 +223,16 @@ fn check(impact: &Impact) -> Result<()> {
     })
 }
 
-/// Name under which a ladder's points stand in the figure: lattices are one group, the details of the fitted grid another.
+/// Name under which a ladder's points stand in the figure.
 fn group(ladder: &str) -> &str {
     match ladder {
         "points" | "time step" | "far cells" | "growth" => "grid details",
-        _ if ladder.starts_with("lattice") => "lattices",
+        _ if ladder.starts_with("lattice, 3-D") => "lattices, 3-D",
+        _ if ladder.starts_with("lattice") => "lattices, section",
+        _ if ladder.starts_with("thesis, 3-D") => "thesis preset, 3-D",
+        _ if ladder.starts_with("thesis") => "thesis preset, section",
+        "transfer" => "FLIP, PIC, APIC",
+        "planned" => "planned for 5 to 0.5 %",
         other => other,
     }
 }
@@ -227,11 +256,15 @@ fn figure(rows: &[Row], name: String) -> Result<Figure> {
     for row in rows.iter().filter(good) {
         let point = (row.cpu_s, row.error);
         let label = group(&row.ladder);
+        let role = match row.ladder.as_str() {
+            "planned" => Role::Simulation,
+            _ => Role::Theory,
+        };
         match series.iter_mut().find(|s| s.label == label) {
             Some(series) => series.points.push(point),
             None => series.push(Series {
                 label: label.to_owned(),
-                role: Role::Theory,
+                role,
                 mark: Mark::Points,
                 points: vec![point],
             }),

@@ -1,13 +1,13 @@
 //! Ladder: which settings are tried for one impact, each varied on its own from the planner's choice.
 
 use crate::case::Case;
-use crate::material::stress::Moduli;
-use crate::plan::{Plan, plan, with_prediction};
-use crate::scheme::{Layout, Reference, Scheme, TimeStep, Transfer};
+use crate::plan::{Geometry, Plan, plan, with_prediction};
 use crate::unit::significant;
 
 /// Name of the ladder of the finest run.
 pub const REFERENCE: &str = "reference";
+/// Name of the ladder of what the planner chooses for a tolerance.
+pub const PLANNED: &str = "planned";
 
 /// How much is tried.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -38,41 +38,39 @@ pub fn rungs(case: &Case, velocity: f64, effort: Effort) -> Vec<Rung> {
         effort,
     };
     let mut all = vec![ladder.reference()];
+    all.extend(ladder.planned());
     all.extend(ladder.cells());
     all.extend(ladder.one_by_one());
+    all.extend(ladder.dimensions());
     all.extend(ladder.transfers());
     all.extend(ladder.lattices());
+    all.extend(ladder.solid_lattices());
     all.extend(ladder.thesis());
     all
 }
 
-/// Fifteen settings of the thesis (table 3-1): name, points a diameter, element to point ratio.
-const THESIS: [(&str, f64, f64); 5] = [
-    ("MP/ES", 50.0, 1.05),
-    ("2MP/ES", 62.0, 1.3),
-    ("4MP/ES", 80.0, 1.68),
-    ("MP/2ES", 25.0, 1.05),
-    ("MP/4ES", 13.0, 1.05),
-];
-
 /// Cells a contact radius at which what is not the cell size is varied.
 const MIDDLE: f64 = 14.0;
 
-struct Ladder<'a> {
-    case: &'a Case,
-    base: Plan,
-    effort: Effort,
+/// Ladders of one impact.
+pub(super) struct Ladder<'a> {
+    /// The case.
+    pub case: &'a Case,
+    /// What the planner chooses for it.
+    pub base: Plan,
+    /// How much is tried.
+    pub effort: Effort,
 }
 
 impl Ladder<'_> {
     /// The planner's grid with another number of cells in the contact radius.
-    fn with_cells(&self, cells: f64) -> Plan {
+    pub(super) fn with_cells(&self, cells: f64) -> Plan {
         let mut plan = self.base.clone();
         plan.grid.fine = plan.estimate.contact_radius / cells;
         plan
     }
 
-    fn rung(&self, ladder: &str, name: String, plan: Plan) -> Rung {
+    pub(super) fn rung(&self, ladder: &str, name: String, plan: Plan) -> Rung {
         Rung {
             ladder: ladder.to_owned(),
             name,
@@ -80,7 +78,7 @@ impl Ladder<'_> {
         }
     }
 
-    fn is_quick(&self) -> bool {
+    pub(super) fn is_quick(&self) -> bool {
         self.effort == Effort::Quick
     }
 
@@ -92,6 +90,34 @@ impl Ladder<'_> {
         plan.grid.growth = 1.1;
         plan.grid.points_per_direction = 3;
         self.rung(REFERENCE, format!("a/{cells}"), plan)
+    }
+
+    /// What the planner chooses for a tolerance.
+    fn planned(&self) -> Vec<Rung> {
+        let rung = |tolerance: f64| {
+            let mut case = self.case.clone();
+            case.tolerance = tolerance;
+            let percent = significant(tolerance * 100.0, 2);
+            let plan = plan(&case, self.base.velocity);
+            self.rung(PLANNED, format!("tolerance {percent} %"), plan)
+        };
+        [0.05, 0.02, 0.01, 0.005].map(rung).into()
+    }
+
+    /// The same impact in three dimensions, a quarter of the sphere.
+    fn dimensions(&self) -> Vec<Rung> {
+        let cells: &[f64] = match self.effort {
+            Effort::Quick => &[3.5],
+            Effort::Full => &[3.5, 5.0, 7.0, 10.0],
+        };
+        let rung = |n: &f64| {
+            let mut plan = self.with_cells(*n);
+            plan.geometry = Geometry::Quarter;
+            plan.grid.growth = 1.3;
+            plan.grid.coarse = 0.15;
+            self.rung("cells, 3-D", format!("a/{n}"), plan)
+        };
+        cells.iter().map(rung).collect()
     }
 
     /// Cell size, for each degree.
@@ -136,121 +162,6 @@ impl Ladder<'_> {
         }
         for growth in [1.3, 1.15, 1.08] {
             vary("growth", format!("{growth}"), &|p| p.grid.growth = growth);
-        }
-        all
-    }
-
-    /// Transfers of velocity between points and grid, every step, on the planner's grid; with the stable step and a tenth.
-    fn transfers(&self) -> Vec<Rung> {
-        let cells: &[f64] = if self.is_quick() {
-            &[5.0]
-        } else {
-            &[7.0, 14.0]
-        };
-        let kinds = [
-            Transfer::Persistent,
-            Transfer::Blend(1.0),
-            Transfer::Blend(0.99),
-            Transfer::Blend(0.0),
-            Transfer::Apic,
-        ];
-        let mut all = Vec::new();
-        for &n in cells {
-            for share in [1.0, 0.1] {
-                for transfer in kinds {
-                    let mut plan = self.with_cells(n);
-                    plan.scheme.transfer = transfer;
-                    plan.grid.dt_share = share;
-                    let name = format!("{}, a/{n}, {share} of stable", transfer.name());
-                    all.push(self.rung("transfer", name, plan));
-                }
-            }
-        }
-        all
-    }
-
-    /// Lattice points on a uniform grid, one point a cell: velocity on the nodes, FLIP, updated Lagrangian.
-    fn lattices(&self) -> Vec<Rung> {
-        let counts: &[f64] = if self.is_quick() {
-            &[26.0, 38.0]
-        } else {
-            &[26.0, 38.0, 50.0, 80.0, 120.0]
-        };
-        let nodal = (Transfer::Persistent, Reference::Initial, "nodal");
-        let flip = (Transfer::Blend(1.0), Reference::Initial, "FLIP");
-        let updated = (
-            Transfer::Blend(1.0),
-            Reference::Present,
-            "FLIP, updated Lagrangian",
-        );
-        let mut all = Vec::new();
-        for degree in [1, 3] {
-            for (transfer, reference, name) in [nodal, flip, updated] {
-                for &count in counts {
-                    let mut plan = self.lattice(count, 1.05);
-                    plan.grid.degree = degree;
-                    plan.scheme.transfer = transfer;
-                    plan.scheme.reference = reference;
-                    if reference == Reference::Present {
-                        plan.scheme.time_step =
-                            TimeStep::Fixed(0.1 * self.crossing(plan.grid.fine));
-                    }
-                    let ladder = format!("lattice, degree {degree}, {name}");
-                    all.push(self.rung(&ladder, format!("{count} a diameter"), plan));
-                }
-            }
-        }
-        all
-    }
-
-    /// Lattice of `count` points a diameter on uniform cells of `ratio` spacings.
-    fn lattice(&self, count: f64, ratio: f64) -> Plan {
-        let mut plan = self.base.clone();
-        plan.grid.fine = ratio * 2.0 / count;
-        plan.grid.fine_width = 1.0;
-        plan.grid.fine_depth = 2.0;
-        plan.scheme.layout = Layout::Lattice(count);
-        plan
-    }
-
-    /// c0, m/s.
-    fn bar_speed(&self) -> f64 {
-        (self.case.material.young_modulus / self.case.material.density).sqrt()
-    }
-
-    /// Time in which a dilatational wave and the body cross a cell, R/c0 (thesis, equation 3-27).
-    fn crossing(&self, cell: f64) -> f64 {
-        let material = &self.case.material;
-        let wave = Moduli::new(1.0, material.poisson_ratio).dilatational_speed(1.0);
-        cell / (wave + self.base.velocity / self.bar_speed())
-    }
-
-    /// Settings of the thesis (tables 3-1 and 3-2) in the axisymmetric section: lattice, cubic splines, FLIP, fixed step.
-    ///
-    /// Its step is 0.1, 0.01 or 0.001 of the power of ten (in seconds) below the smallest cell's crossing time.
-    fn thesis(&self) -> Vec<Rung> {
-        let unit = self.case.radius / self.bar_speed();
-        let least = THESIS
-            .iter()
-            .map(|(_, count, ratio)| self.crossing(ratio * 2.0 / count) * unit)
-            .fold(f64::INFINITY, f64::min);
-        let order = 10f64.powf(least.log10().floor()) / unit;
-        let mut all = Vec::new();
-        for multiplier in [0.1, 0.01, 0.001] {
-            for (name, count, ratio) in THESIS {
-                if self.is_quick() && (multiplier < 0.1 || count > 25.0) {
-                    continue;
-                }
-                let mut plan = self.lattice(count, ratio);
-                plan.grid.degree = 3;
-                plan.scheme = Scheme {
-                    transfer: Transfer::Blend(1.0),
-                    time_step: TimeStep::Fixed(multiplier * order),
-                    ..plan.scheme
-                };
-                let step = significant(multiplier * order * unit * 1e9, 3);
-                all.push(self.rung("thesis", format!("{name}, {step} ns"), plan));
-            }
         }
         all
     }

@@ -1,9 +1,12 @@
 //! Cost: what accuracy costs in time. Ladders of settings for one impact, the errors of each, and the Pareto front.
 
+pub mod accuracy;
 mod ladder;
 mod pulse;
+mod relatives;
 mod row;
 mod table;
+pub mod thesis;
 
 pub use ladder::{Effort, Rung, rungs};
 pub use pulse::{Misfit, Pulse};

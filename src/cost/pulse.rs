@@ -131,6 +131,12 @@ impl Pulse {
     /// How this pulse differs from `reference`.
     #[must_use]
     pub fn misfit(&self, reference: &Pulse) -> Misfit {
+        self.misfit_in_units(reference, reference)
+    }
+
+    /// The same with the mean errors in units of the largest force and displacement of `unit`.
+    #[must_use]
+    pub fn misfit_in_units(&self, reference: &Pulse, unit: &Pulse) -> Misfit {
         let relative = |a: f64, b: f64| a / b - 1.0;
         let total = reference.contact_time;
         let (ours, theirs) = (self.means(total), reference.means(total));
@@ -138,8 +144,8 @@ impl Pulse {
             let sum: f64 = ours.iter().zip(&theirs).map(|(a, b)| term(*a, *b)).sum();
             sum / INTERVALS as f64
         };
-        let force = |a: (f64, f64), b: (f64, f64)| (a.0 - b.0) / reference.force;
-        let displacement = |a: (f64, f64), b: (f64, f64)| (a.1 - b.1) / reference.displacement;
+        let force = |a: (f64, f64), b: (f64, f64)| (a.0 - b.0) / unit.force;
+        let displacement = |a: (f64, f64), b: (f64, f64)| (a.1 - b.1) / unit.displacement;
         Misfit {
             force: relative(self.force, reference.force),
             displacement: relative(self.displacement, reference.displacement),

@@ -2,6 +2,7 @@
 
 use super::{Misfit, Pulse, Rung};
 use crate::curve::{Impact, Status};
+use crate::plan::Geometry;
 use serde::Serialize;
 
 /// One run. Field names are the CSV header; errors are relative to the finest run (`*_error_rel`, `mae_*`, `mse_*`) and, of
@@ -16,6 +17,10 @@ pub struct Row {
     pub rung: String,
     /// Degree of the splines.
     pub degree: usize,
+    /// 2: the axisymmetric section, 3: a quarter of the sphere.
+    pub dimension: usize,
+    /// Smallest cells, particle radii.
+    pub cell_size_rel: f64,
     /// Cells in the expected contact radius.
     pub cells_per_radius: f64,
     /// Material points.
@@ -91,6 +96,11 @@ impl Row {
         let mut row = Row {
             velocity_m_s: s.velocity_m_s,
             degree: plan.grid.degree,
+            dimension: match plan.geometry {
+                Geometry::Axisymmetric => 2,
+                _ => 3,
+            },
+            cell_size_rel: plan.grid.fine,
             cells_per_radius: plan.estimate.contact_radius / plan.grid.fine,
             points: s.points,
             steps: s.steps,
@@ -137,6 +147,8 @@ impl Row {
             ladder: ladder.to_owned(),
             rung: rung.to_owned(),
             degree: 0,
+            dimension: 0,
+            cell_size_rel: nan,
             cells_per_radius: nan,
             points: 0,
             steps: 0,

@@ -17,6 +17,8 @@ pub struct Summary<'a> {
     pub rows: &'a [Row],
     /// Rungs that would have taken too long, with the seconds predicted.
     pub left_out: &'a [(String, f64)],
+    /// The thesis' tables beside these runs, where they are of its case.
+    pub thesis: Option<&'a str>,
 }
 
 impl Summary<'_> {
@@ -34,6 +36,7 @@ impl Summary<'_> {
         self.write_rows(&mut text);
         self.write_hertz(&mut text);
         self.write_cheapest(&mut text);
+        text.push_str(self.thesis.unwrap_or_default());
         if !self.left_out.is_empty() {
             text.push_str("\n## Left out: longer than asked for\n\n");
             for (name, seconds) in self.left_out {

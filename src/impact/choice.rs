@@ -2,7 +2,7 @@
 
 use super::CONTACT_TOLERANCE;
 use super::contact::Wall;
-use super::patch::{Coulomb, Frictionless};
+use super::patch::{Coulomb, Frictionless, MEMORY};
 use super::record::Record;
 use super::remap::{Apic, Blend, Carriers};
 use super::run::{Run, incident};
@@ -63,8 +63,11 @@ pub(super) fn run_geometry<M: Constitutive<Axisymmetric> + Constitutive<Solid>>(
     if plan.geometry == Geometry::Axisymmetric {
         run_section(material, job)
     } else if plan.friction > 0.0 {
-        let coefficient = plan.friction;
-        let model = solid::build::<_, _, 2, 27>(mesh, material, Coulomb { coefficient }, tolerance);
+        let friction = Coulomb {
+            coefficient: plan.friction,
+            memory: MEMORY * plan.estimate.contact_time,
+        };
+        let model = solid::build::<_, _, 2, 27>(mesh, material, friction, tolerance);
         Run::new(model, (), plan, speed).finish(job.keeper())
     } else {
         run_solid(mesh, material, job)

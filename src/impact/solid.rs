@@ -14,10 +14,6 @@ use crate::plan::{Geometry, Grid};
 use crate::scheme::Layout;
 use crate::space::Solid;
 
-/// Memory of friction for the normal force, in cells at the speed c0. Without it a sphere of nu = 0.35 that slides at
-/// mu = 0.3 sticks in waves and loses 4 % of the friction impulse; with it 0.15 % is missing.
-const MEMORY: f64 = 2.3;
-
 /// A run's model in three dimensions.
 pub type SolidModel<M, F, const N: usize> = Model<Solid, M, Patch<F, N>, N>;
 
@@ -94,7 +90,7 @@ pub fn build<M: Constitutive<Solid>, F: Friction, const P: usize, const N: usize
     }
     let mass = points.nodal_mass(volume.nodes());
     let recip_mass = volume.recip_mass(&mass);
-    let mut contact = Patch::new(friction, offsets, MEMORY * grid.fine, contact_tolerance);
+    let mut contact = Patch::new(friction, offsets, contact_tolerance);
     for (x, height) in mesh.surface(&volume) {
         let (first, values) = volume.interpolate(x);
         contact.push(first, values, [x[0], x[1], height]);

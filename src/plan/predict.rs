@@ -67,7 +67,13 @@ pub fn with_cells(mut plan: Plan, share: f64, material: &Material) -> Plan {
 /// Point-steps a second of a plan's degree and scheme.
 fn throughput(plan: &Plan) -> f64 {
     if plan.geometry != Geometry::Axisymmetric {
-        return SOLID_THROUGHPUT;
+        // one point a cell leaves three of four lanes empty
+        let lattice = [0.3, 0.2, 0.1][plan.grid.degree.clamp(1, 3) - 1];
+        let share = match plan.scheme.layout {
+            Layout::Fitted => 1.0,
+            Layout::Lattice(_) => lattice,
+        };
+        return SOLID_THROUGHPUT * share;
     }
     let degree = [0.75, 1.0, 0.4][plan.grid.degree.clamp(1, 3) - 1];
     let transfer = match plan.scheme.transfer {
@@ -92,6 +98,8 @@ fn points(plan: &Plan) -> usize {
     );
     let side = grid.points_per_direction as f64;
     let points = match (plan.geometry, plan.scheme.layout) {
+        (Geometry::Quarter, Layout::Lattice(n)) => std::f64::consts::PI / 24.0 * n.powi(3),
+        (Geometry::Half, Layout::Lattice(n)) => std::f64::consts::PI / 12.0 * n.powi(3),
         (Geometry::Quarter, _) => 0.6 * across.powi(2) * up * side.powi(3),
         (Geometry::Half, _) => 1.2 * across.powi(2) * up * side.powi(3),
         (_, Layout::Fitted) => 0.8 * across * up * side.powi(2),

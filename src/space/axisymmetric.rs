@@ -90,6 +90,9 @@ impl Space for Axisymmetric {
     fn moment(_: &[f64; 2], _: &[f64; 2]) -> f64 {
         0.0
     }
+    fn turned(_: &[f64; 2]) -> [f64; 2] {
+        [0.0; 2]
+    }
     fn section(position: &[f64; 3], reference: &[f64; 3], volume: f64, _: f64) -> Option<[f64; 3]> {
         let size = (volume / (std::f64::consts::TAU * reference[0])).sqrt();
         Some([position[0], position[1], size])

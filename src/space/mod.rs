@@ -48,6 +48,8 @@ pub trait Space: Copy + Send + Sync + 'static {
 
     /// Moment $(x \times v)_y$ about the axis an oblique impact turns about; `x` from any fixed point.
     fn moment(x: &Self::Vector, v: &Self::Vector) -> f64;
+    /// Velocity at `x` of a turn about that axis at unit rate: positive rolls in the direction of sliding.
+    fn turned(x: &Self::Vector) -> Self::Vector;
     /// A material point of reference volume `volume` as seen in the plane of a map: distance along it, height, edge length.
     /// `None` for points farther than `depth` from that plane.
     fn section(

@@ -140,6 +140,9 @@ impl Space for Solid {
     fn moment(x: &[f64; 3], v: &[f64; 3]) -> f64 {
         x[2] * v[0] - x[0] * v[2]
     }
+    fn turned(x: &[f64; 3]) -> [f64; 3] {
+        [x[2], 0.0, -x[0]]
+    }
     fn section(
         position: &[f64; 3],
         reference: &[f64; 3],

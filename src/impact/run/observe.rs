@@ -89,18 +89,20 @@ where
         let centre: Vec<f64> = (0..S::Vector::default().as_ref().len())
             .map(|k| self.mean(&self.u, k) + self.mean(&self.model.places, k))
             .collect();
-        let mut momentum = 0.0;
+        let (mut momentum, mut inertia) = (0.0, 0.0);
         for (n, mass) in self.model.mass.iter().enumerate() {
             let mut arm = self.u[n];
             for (k, x) in arm.as_mut().iter_mut().enumerate() {
                 *x += self.model.places[n].as_ref()[k] - centre[k];
             }
             momentum += mass * S::moment(&arm, &self.v[n]);
+            // that of the nodes, which on a coarse grid is a few per cent above 2/5 m R^2
+            inertia += mass * S::moment(&arm, &S::turned(&arm));
         }
         Some(Sliding {
             incident: self.speed * self.plan.angle.sin(),
             exit: self.mean(&self.v, axis),
-            spin: momentum / (0.4 * self.mass),
+            spin: momentum / inertia,
             impulse_ratio: -self.tangential / self.impulse,
         })
     }

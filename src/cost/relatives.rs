@@ -1,0 +1,164 @@
+//! Relatives: rungs with the schemes of other codes, from transfers of velocity to the settings of the thesis.
+
+use super::ladder::{Ladder, Rung};
+use super::thesis::{self, Setting};
+use crate::material::stress::Moduli;
+use crate::plan::{Geometry, Plan};
+use crate::scheme::{Layout, Reference, Scheme, TimeStep, Transfer};
+use crate::unit::significant;
+
+/// Name of the ladder of cubic lattices in three dimensions with FLIP and the stable step.
+pub const CUBIC_LATTICES: &str = "lattice, 3-D, degree 3, FLIP";
+
+impl Ladder<'_> {
+    /// Transfers of velocity between points and grid, every step, on the planner's grid; with the stable step and a tenth.
+    pub(super) fn transfers(&self) -> Vec<Rung> {
+        let cells: &[f64] = if self.is_quick() {
+            &[5.0]
+        } else {
+            &[7.0, 14.0]
+        };
+        let kinds = [
+            Transfer::Persistent,
+            Transfer::Blend(1.0),
+            Transfer::Blend(0.99),
+            Transfer::Blend(0.0),
+            Transfer::Apic,
+        ];
+        let mut all = Vec::new();
+        for &n in cells {
+            for share in [1.0, 0.1] {
+                for transfer in kinds {
+                    let mut plan = self.with_cells(n);
+                    plan.scheme.transfer = transfer;
+                    plan.grid.dt_share = share;
+                    let name = format!("{}, a/{n}, {share} of stable", transfer.name());
+                    all.push(self.rung("transfer", name, plan));
+                }
+            }
+        }
+        all
+    }
+
+    /// Lattice points on a uniform grid, one point a cell: velocity on the nodes, FLIP, updated Lagrangian.
+    ///
+    /// One point a cell leaves motions of cubic nodes that no point resists. A transfer filters them every step; with the
+    /// velocity on the nodes the body sinks into itself (`tests/impact_schemes.rs`), which is why this crate fills its cells
+    /// with Gauss points.
+    pub(super) fn lattices(&self) -> Vec<Rung> {
+        let counts: &[f64] = if self.is_quick() {
+            &[26.0, 38.0]
+        } else {
+            &[26.0, 38.0, 50.0, 80.0, 120.0]
+        };
+        let nodal = (Transfer::Persistent, Reference::Initial, "nodal");
+        let flip = (Transfer::Blend(1.0), Reference::Initial, "FLIP");
+        let updated = (
+            Transfer::Blend(1.0),
+            Reference::Present,
+            "FLIP, updated Lagrangian",
+        );
+        let mut all = Vec::new();
+        for degree in [1, 3] {
+            for (transfer, reference, name) in [nodal, flip, updated] {
+                for &count in counts {
+                    let mut plan = self.lattice(count, thesis::RATIO);
+                    plan.grid.degree = degree;
+                    plan.scheme.transfer = transfer;
+                    plan.scheme.reference = reference;
+                    if reference == Reference::Present {
+                        plan.scheme.time_step =
+                            TimeStep::Fixed(0.1 * self.crossing(plan.grid.fine));
+                    }
+                    let ladder = format!("lattice, degree {degree}, {name}");
+                    all.push(self.rung(&ladder, format!("{count} a diameter"), plan));
+                }
+            }
+        }
+        all
+    }
+
+    /// Lattice of `count` points a diameter on uniform cells of `ratio` spacings.
+    fn lattice(&self, count: f64, ratio: f64) -> Plan {
+        let mut plan = self.base.clone();
+        plan.grid.fine = ratio * 2.0 / count;
+        plan.grid.fine_width = 1.0;
+        plan.grid.fine_depth = 2.0;
+        plan.scheme.layout = Layout::Lattice(count);
+        plan
+    }
+
+    /// c0, m/s.
+    fn bar_speed(&self) -> f64 {
+        (self.case.material.young_modulus / self.case.material.density).sqrt()
+    }
+
+    /// Time in which a dilatational wave and the body cross a cell, R/c0 (thesis, equation 3-27).
+    fn crossing(&self, cell: f64) -> f64 {
+        let material = &self.case.material;
+        let wave = Moduli::new(1.0, material.poisson_ratio).dilatational_speed(1.0);
+        cell / (wave + self.base.velocity / self.bar_speed())
+    }
+
+    /// Cubic lattices in three dimensions, one point a cell, FLIP and the largest stable step: the thesis' scheme at its
+    /// cheapest.
+    pub(super) fn solid_lattices(&self) -> Vec<Rung> {
+        let counts: &[f64] = if self.is_quick() {
+            &[13.0, 20.0]
+        } else {
+            &[13.0, 25.0, 38.0, 50.0, 80.0]
+        };
+        let mut all = Vec::new();
+        for (degree, name) in [(3, CUBIC_LATTICES), (1, "lattice, 3-D, degree 1, FLIP")] {
+            for &count in counts {
+                let mut plan = self.lattice(count, thesis::RATIO);
+                plan.geometry = Geometry::Quarter;
+                plan.grid.degree = degree;
+                plan.scheme.transfer = Transfer::Blend(1.0);
+                all.push(self.rung(name, format!("{count} a diameter"), plan));
+            }
+        }
+        all
+    }
+
+    /// Settings of the thesis (tables 3-1 and 3-2): lattice, cubic splines, FLIP, fixed step; in the section, and in three
+    /// dimensions with two planes of symmetry.
+    ///
+    /// Its step is 0.1, 0.01 or 0.001 of the power of ten (in seconds) below the smallest cell's crossing time.
+    pub(super) fn thesis(&self) -> Vec<Rung> {
+        let unit = self.case.radius / self.bar_speed();
+        let least = (thesis::SETTINGS.iter())
+            .map(|s| self.crossing(s.cell()) * unit)
+            .fold(f64::INFINITY, f64::min);
+        let order = 10f64.powf(least.log10().floor()) / unit;
+        let mut all = Vec::new();
+        for geometry in [Geometry::Axisymmetric, Geometry::Quarter] {
+            for (nth, multiplier) in thesis::MULTIPLIERS.into_iter().enumerate() {
+                for setting in &thesis::SETTINGS {
+                    if self.is_quick() && (nth > 0 || setting.count > 25.0) {
+                        continue;
+                    }
+                    let dt = multiplier * order;
+                    let mut plan = self.preset(setting, dt);
+                    plan.geometry = geometry;
+                    let step = significant(dt * unit * 1e9, 3);
+                    let name = format!("{}, {step} ns", setting.name);
+                    all.push(self.rung(&thesis::ladder(geometry, nth), name, plan));
+                }
+            }
+        }
+        all
+    }
+
+    /// A setting of the thesis with the fixed step `dt`.
+    fn preset(&self, setting: &Setting, dt: f64) -> Plan {
+        let mut plan = self.lattice(setting.count, setting.ratio);
+        plan.grid.degree = 3;
+        plan.scheme = Scheme {
+            transfer: Transfer::Blend(1.0),
+            time_step: TimeStep::Fixed(dt),
+            ..plan.scheme
+        };
+        plan
+    }
+}
