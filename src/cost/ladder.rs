@@ -82,9 +82,10 @@ impl Ladder<'_> {
         self.effort == Effort::Quick
     }
 
-    /// The finest run: fine everywhere, one more point a direction.
+    /// The finest run: fine everywhere, one more point a direction. By the errors that the planner is calibrated on
+    /// (2.4/n^2 with n cells a contact radius) it is right to 0.08 %, and to 0.3 % where little is tried.
     fn reference(&self) -> Rung {
-        let cells = if self.is_quick() { 28.0 } else { 80.0 };
+        let cells = if self.is_quick() { 28.0 } else { 56.0 };
         let mut plan = self.with_cells(cells);
         plan.grid.coarse = 0.05;
         plan.grid.growth = 1.1;
@@ -124,7 +125,7 @@ impl Ladder<'_> {
     fn cells(&self) -> Vec<Rung> {
         let cells: &[f64] = match self.effort {
             Effort::Quick => &[3.5, 5.0, 7.0, 10.0, 14.0],
-            Effort::Full => &[3.5, 5.0, 7.0, 10.0, 14.0, 20.0, 28.0, 40.0, 56.0],
+            Effort::Full => &[3.5, 5.0, 7.0, 10.0, 14.0, 20.0, 28.0, 40.0],
         };
         let mut all = Vec::new();
         for degree in [2, 1, 3] {

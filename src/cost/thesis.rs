@@ -211,7 +211,7 @@ impl Comparison<'_> {
             m.mse_displacement,
         ];
         let pairs = ours.iter().zip(printed);
-        let cells: Vec<String> = pairs.map(|(a, b)| format!("{a:.1e} | {b:.0e}")).collect();
+        let cells: Vec<String> = pairs.map(|(a, b)| format!("{a:.1e} | {b:.1e}")).collect();
         let _ = writeln!(text, "| {}, {place} | {} |", row.rung, cells.join(" | "));
     }
 }
