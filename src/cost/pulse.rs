@@ -94,6 +94,21 @@ impl Pulse {
         }
     }
 
+    /// The same course over its own contact time, in units of its own largest force and displacement.
+    #[must_use]
+    pub fn in_own_units(&self) -> Pulse {
+        let (f, d, t) = (self.force, self.displacement, self.contact_time);
+        let scaled = |s: &(f64, f64, f64)| (s.0 / t, s.1 / f, s.2 / d);
+        Pulse {
+            force: 1.0,
+            displacement: 1.0,
+            contact_time: 1.0,
+            restitution: self.restitution,
+            velocity: self.velocity * t / d,
+            samples: self.samples.iter().map(scaled).collect(),
+        }
+    }
+
     /// Force and displacement as the means over equal intervals of `total` (s); free flight after loss of contact.
     fn means(&self, total: f64) -> Vec<(f64, f64)> {
         const PARTS: usize = 16;
@@ -241,6 +256,19 @@ mod tests {
             "{} {mean}",
             misfit.mae_force
         );
+    }
+
+    #[test]
+    fn impacts_that_differ_in_scale_only_are_one_in_their_own_units() {
+        let slow = hertz();
+        let mut other = slow.clone();
+        for s in &mut other.samples {
+            *s = (2.0 * s.0, 3.0 * s.1, 5.0 * s.2);
+        }
+        (other.contact_time, other.force) = (2.0 * slow.contact_time, 3.0 * slow.force);
+        (other.displacement, other.velocity) = (5.0 * slow.displacement, 2.5 * slow.velocity);
+        let misfit = other.in_own_units().misfit(&slow.in_own_units());
+        assert!(misfit.mae_force < 1e-12 && misfit.mae_displacement < 1e-12);
     }
 
     #[test]

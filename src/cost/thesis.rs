@@ -157,7 +157,9 @@ impl Comparison<'_> {
              centre lies inside it, the thesis' holds 8 to 30 % more. Errors are relative to the finest run, MAE to \
              Johnson.\n\n| setting | points, thesis | points of the whole sphere here | time, thesis | cpu s here | F* | delta* | e \
              | MAE F | MAE delta |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n{times}\n## The thesis' table 3-3: errors \
-             against {FINEST} at the same time step\n\nThe printed ones are at one time step, which is not named.\n\n\
+             against {FINEST} at the same time step\n\nThe thesis prints them for one time step that it does not name, \
+             and does not say by which F*, delta* and contact time a run is made dimensionless: first Johnson's for \
+             all, then each run's own.\n\n\
              | setting | MAE F | thesis | MAE delta | thesis | MSE F | thesis | MSE delta | thesis \
              |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|\n{errors}"
         )
@@ -203,15 +205,23 @@ impl Comparison<'_> {
             Geometry::Axisymmetric => "section",
             _ => "3-D",
         };
-        let m = pulse.misfit_in_units(finest, self.unit);
-        let ours = [
-            m.mae_force,
-            m.mae_displacement,
-            m.mse_force,
-            m.mse_displacement,
-        ];
-        let pairs = ours.iter().zip(printed);
-        let cells: Vec<String> = pairs.map(|(a, b)| format!("{a:.1e} | {b:.1e}")).collect();
-        let _ = writeln!(text, "| {}, {place} | {} |", row.rung, cells.join(" | "));
+        let own = pulse.in_own_units().misfit(&finest.in_own_units());
+        let common = pulse.misfit_in_units(finest, self.unit);
+        for (units, m) in [("", common), (", own units", own)] {
+            let ours = [
+                m.mae_force,
+                m.mae_displacement,
+                m.mse_force,
+                m.mse_displacement,
+            ];
+            let pairs = ours.iter().zip(printed);
+            let cells: Vec<String> = pairs.map(|(a, b)| format!("{a:.1e} | {b:.1e}")).collect();
+            let _ = writeln!(
+                text,
+                "| {}, {place}{units} | {} |",
+                row.rung,
+                cells.join(" | ")
+            );
+        }
     }
 }
