@@ -162,6 +162,9 @@ pub struct BedArgs {
     /// Seed of the insertion, instead of the scene's.
     #[arg(long)]
     pub seed: Option<u64>,
+    /// How often a run under way is kept, so that the same command goes on after an interruption.
+    #[arg(long, default_value = "30 s")]
+    pub checkpoint: String,
 }
 
 /// Arguments of `study`.

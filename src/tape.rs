@@ -3,26 +3,69 @@
 //! Only what changes is kept; grid, points and couplings are built again from the plan, and the file names the plan and the
 //! program it belongs to. Numbers are kept as their bits.
 
-use crate::files::write_atomic;
 use crate::lanes::{Lanes, WIDTH};
-use crate::{PROGRAM, Result};
-use sha2::{Digest, Sha256};
-use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+
+mod checkpoint;
+
+pub use checkpoint::{Checkpoint, Keeper, TakenUp};
 
 /// Numbers written one after the other, and read back in the same order.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Tape {
-    numbers: Vec<u64>,
+    bytes: Vec<u8>,
     at: usize,
 }
 
 impl Tape {
-    /// The next number.
-    fn next(&mut self) -> Option<u64> {
-        let number = self.numbers.get(self.at).copied();
-        self.at += 1;
-        number
+    /// The next `N` bytes.
+    fn next<const N: usize>(&mut self) -> Option<[u8; N]> {
+        let bytes = self.bytes.get(self.at..self.at + N)?;
+        self.at += N;
+        bytes.try_into().ok()
+    }
+
+    /// What has been written, for a file.
+    #[must_use]
+    pub fn as_bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+
+    /// Whether everything has been read.
+    #[must_use]
+    pub fn is_at_end(&self) -> bool {
+        self.at == self.bytes.len()
+    }
+
+    /// Tape of the bytes of another one, at its beginning.
+    #[must_use]
+    pub fn from_bytes(bytes: Vec<u8>) -> Self {
+        Tape { bytes, at: 0 }
+    }
+
+    /// Writes `items`, most of which are as they began, at a byte for each of those.
+    pub fn save_few<T: Keep + Default>(&mut self, items: &[T]) {
+        let mut usual = Tape::default();
+        T::default().save(&mut usual);
+        for item in items {
+            let flag = self.bytes.len();
+            self.bytes.push(1);
+            item.save(self);
+            if self.bytes[flag + 1..] == usual.bytes {
+                self.bytes.truncate(flag + 1);
+                self.bytes[flag] = 0;
+            }
+        }
+    }
+
+    /// Takes back what [`Tape::save_few`] wrote of as many items.
+    pub fn load_few<T: Keep + Default>(&mut self, items: &mut [T]) -> Option<()> {
+        for item in items {
+            match self.next()? {
+                [0] => *item = T::default(),
+                [_] => item.load(self)?,
+            }
+        }
+        Some(())
     }
 }
 
@@ -43,30 +86,58 @@ impl Keep for () {
 
 impl Keep for u64 {
     fn save(&self, tape: &mut Tape) {
-        tape.numbers.push(*self);
+        tape.bytes.extend(self.to_le_bytes());
     }
     fn load(&mut self, tape: &mut Tape) -> Option<()> {
-        *self = tape.next()?;
+        *self = u64::from_le_bytes(tape.next()?);
         Some(())
     }
 }
 
 impl Keep for f64 {
     fn save(&self, tape: &mut Tape) {
+        tape.bytes.extend(self.to_le_bytes());
+    }
+    fn load(&mut self, tape: &mut Tape) -> Option<()> {
+        *self = f64::from_le_bytes(tape.next()?);
+        Some(())
+    }
+}
+
+impl Keep for f32 {
+    fn save(&self, tape: &mut Tape) {
         self.to_bits().save(tape);
     }
     fn load(&mut self, tape: &mut Tape) -> Option<()> {
-        *self = f64::from_bits(tape.next()?);
+        let mut bits = 0u32;
+        bits.load(tape)?;
+        *self = f32::from_bits(bits);
+        Some(())
+    }
+}
+
+impl Keep for String {
+    fn save(&self, tape: &mut Tape) {
+        let letters: Vec<u32> = self.chars().map(u32::from).collect();
+        letters.save(tape);
+    }
+    fn load(&mut self, tape: &mut Tape) -> Option<()> {
+        let mut letters: Vec<u32> = Vec::new();
+        letters.load(tape)?;
+        *self = letters
+            .into_iter()
+            .map(char::from_u32)
+            .collect::<Option<_>>()?;
         Some(())
     }
 }
 
 impl Keep for bool {
     fn save(&self, tape: &mut Tape) {
-        u64::from(*self).save(tape);
+        tape.bytes.push(u8::from(*self));
     }
     fn load(&mut self, tape: &mut Tape) -> Option<()> {
-        *self = tape.next()? != 0;
+        *self = tape.next()? != [0];
         Some(())
     }
 }
@@ -95,27 +166,28 @@ impl Keep for usize {
         (*self as u64).save(tape);
     }
     fn load(&mut self, tape: &mut Tape) -> Option<()> {
-        *self = usize::try_from(tape.next()?).ok()?;
+        *self = usize::try_from(u64::from_le_bytes(tape.next()?)).ok()?;
         Some(())
     }
 }
 
 impl Keep for u32 {
     fn save(&self, tape: &mut Tape) {
-        u64::from(*self).save(tape);
+        tape.bytes.extend(self.to_le_bytes());
     }
     fn load(&mut self, tape: &mut Tape) -> Option<()> {
-        *self = u32::try_from(tape.next()?).ok()?;
+        *self = u32::from_le_bytes(tape.next()?);
         Some(())
     }
 }
 
 impl Keep for u8 {
     fn save(&self, tape: &mut Tape) {
-        u64::from(*self).save(tape);
+        tape.bytes.push(*self);
     }
     fn load(&mut self, tape: &mut Tape) -> Option<()> {
-        *self = tape.next()?.try_into().ok()?;
+        let [byte] = tape.next()?;
+        *self = byte;
         Some(())
     }
 }
@@ -137,8 +209,10 @@ impl<T: Keep + Default + Clone> Keep for Vec<T> {
         self.iter().for_each(|x| x.save(tape));
     }
     fn load(&mut self, tape: &mut Tape) -> Option<()> {
-        let length = usize::try_from(tape.next()?).ok()?;
-        if length > tape.numbers.len() {
+        let mut length = 0usize;
+        length.load(tape)?;
+        // a damaged length must not fill the memory
+        if length > tape.bytes.len() {
             return None;
         }
         self.resize(length, T::default());
@@ -155,8 +229,8 @@ impl<T: Keep + Default> Keep for Option<T> {
     }
     fn load(&mut self, tape: &mut Tape) -> Option<()> {
         *self = match tape.next()? {
-            0 => None,
-            _ => {
+            [0] => None,
+            [_] => {
                 let mut x = T::default();
                 x.load(tape)?;
                 Some(x)
@@ -197,166 +271,3 @@ macro_rules! keep_fields {
     };
 }
 pub(crate) use keep_fields;
-
-/// Where a run is kept while it is under way.
-#[derive(Debug, Clone)]
-pub struct Checkpoint {
-    path: PathBuf,
-    interval: Duration,
-}
-
-impl Checkpoint {
-    /// Keep runs in `path`, which is written at most once in `interval`.
-    #[must_use]
-    pub fn new(path: &Path, interval: Duration) -> Self {
-        Checkpoint {
-            path: path.to_owned(),
-            interval,
-        }
-    }
-}
-
-/// A checkpoint in use by one run.
-#[derive(Debug)]
-pub struct Keeper<'a> {
-    checkpoint: &'a Checkpoint,
-    /// First numbers of the file: program and plan.
-    key: [u64; 4],
-    last: Instant,
-    started: Instant,
-    /// Seconds that the run had taken when it was taken up.
-    before: f64,
-}
-
-impl<'a> Keeper<'a> {
-    /// For the run that `description` tells from all others.
-    pub fn new(checkpoint: &'a Checkpoint, description: &str) -> Self {
-        let digest = Sha256::digest(format!("{PROGRAM}\n{description}"));
-        let key = std::array::from_fn(|k| {
-            let bytes: [u8; 8] = std::array::from_fn(|i| digest[8 * k + i]);
-            u64::from_le_bytes(bytes)
-        });
-        Keeper {
-            checkpoint,
-            key,
-            last: Instant::now(),
-            started: Instant::now(),
-            before: 0.0,
-        }
-    }
-
-    /// Seconds the run took before it was taken up.
-    pub fn seconds_before(&self) -> f64 {
-        self.before
-    }
-
-    /// Whether it is time to keep the run again.
-    pub fn is_due(&self) -> bool {
-        self.last.elapsed() >= self.checkpoint.interval
-    }
-
-    /// Keep the run.
-    ///
-    /// # Errors
-    /// [`crate::Error::File`] when the file cannot be written.
-    pub fn keep(&mut self, run: &impl Keep) -> Result<()> {
-        let mut tape = Tape::default();
-        self.key.save(&mut tape);
-        (self.before + self.started.elapsed().as_secs_f64()).save(&mut tape);
-        run.save(&mut tape);
-        let bytes: Vec<u8> = tape.numbers.iter().flat_map(|x| x.to_le_bytes()).collect();
-        write_atomic(&self.checkpoint.path, &bytes)?;
-        self.last = Instant::now();
-        Ok(())
-    }
-
-    /// Take up the run that was kept; false, and `run` is not touched, when there is none of this plan.
-    pub fn take_up<T: Keep + Clone>(&mut self, run: &mut T) -> bool {
-        let Ok(bytes) = std::fs::read(&self.checkpoint.path) else {
-            return false;
-        };
-        let mut tape = Tape {
-            numbers: bytes
-                .chunks_exact(8)
-                .map(|b| u64::from_le_bytes(std::array::from_fn(|i| b[i])))
-                .collect(),
-            at: 0,
-        };
-        let mut key = [0u64; 4];
-        let mut seconds = 0.0;
-        let mut taken = run.clone();
-        let fits = key.load(&mut tape).is_some()
-            && key == self.key
-            && seconds.load(&mut tape).is_some()
-            && taken.load(&mut tape).is_some()
-            && tape.at == tape.numbers.len();
-        if fits {
-            *run = taken;
-            self.before = seconds;
-        }
-        fits
-    }
-
-    /// Forget the run, which has ended.
-    pub fn forget(&self) {
-        // a file that stays does no harm: it is taken up only by the same run, which ends as it did
-        let _ = std::fs::remove_file(&self.checkpoint.path);
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[derive(Debug, Clone, Default, PartialEq)]
-    struct Run {
-        speeds: Vec<[f64; 2]>,
-        step: u64,
-        seen: Option<bool>,
-    }
-    keep_fields!(Run: speeds, step, seen);
-
-    fn run() -> Run {
-        Run {
-            speeds: vec![[0.1, -0.0], [f64::INFINITY, 1e-300]],
-            step: 7,
-            seen: Some(true),
-        }
-    }
-
-    #[test]
-    fn a_run_is_taken_up_as_it_was_kept_and_only_by_its_own_plan() {
-        let folder = tempfile::tempdir().unwrap();
-        let checkpoint = Checkpoint::new(&folder.path().join("c.bin"), Duration::ZERO);
-        let mut keeper = Keeper::new(&checkpoint, "plan a");
-        assert!(keeper.is_due());
-        keeper.keep(&run()).unwrap();
-        let mut fresh = Run::default();
-        assert!(!Keeper::new(&checkpoint, "plan b").take_up(&mut fresh));
-        assert_eq!(fresh, Run::default());
-        let mut again = Keeper::new(&checkpoint, "plan a");
-        assert!(again.take_up(&mut fresh));
-        assert_eq!(fresh, run());
-        again.forget();
-        assert!(!again.take_up(&mut fresh));
-    }
-
-    #[test]
-    fn a_damaged_file_is_not_taken_up() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("c.bin");
-        let checkpoint = Checkpoint::new(&path, Duration::ZERO);
-        let mut keeper = Keeper::new(&checkpoint, "plan");
-        keeper.keep(&run()).unwrap();
-        let bytes = std::fs::read(&path).unwrap();
-        for damaged in [
-            &bytes[..bytes.len() - 8],
-            &[bytes.as_slice(), &[0; 8]].concat(),
-        ] {
-            std::fs::write(&path, damaged).unwrap();
-            let mut fresh = Run::default();
-            assert!(!keeper.take_up(&mut fresh));
-            assert_eq!(fresh, Run::default());
-        }
-    }
-}

@@ -137,6 +137,7 @@ fn run(scene: &Scene) -> (BedReport, tempfile::TempDir) {
         folder: folder.path(),
         provenance: "test",
         seed: None,
+        checkpoint: None,
         progress: &|_, _| (),
     };
     (run_scene(scene, None, &options).unwrap(), folder)
@@ -492,6 +493,7 @@ fn a_fitted_law_without_a_law_file_is_refused_before_the_first_step() {
         folder: folder.path(),
         provenance: "test",
         seed: None,
+        checkpoint: None,
         progress: &|_, _| panic!("a step was made"),
     };
     let text = run_scene(&scene, None, &options).err().unwrap().to_string();

@@ -2,6 +2,7 @@
 
 use impactlaw::bed::bodies::{Body, Freedom, Mobility, Solid};
 use impactlaw::bed::damping::Viscous;
+use impactlaw::bed::fabric::Fabric;
 use impactlaw::bed::friction::{Mindlin, RollingSpring};
 use impactlaw::bed::grains::Grains;
 use impactlaw::bed::law::Law;
@@ -167,6 +168,29 @@ fn a_bed_taken_up_at_any_step_ends_with_the_same_bits() {
     let energies = whole.energies();
     assert!(energies.plastic > 0.0 && energies.friction > 0.0 && energies.rolling > 0.0);
     assert_ne!(energies.driven, 0.0);
+}
+
+#[test]
+fn the_sum_of_branches_times_forces_is_that_of_places_times_forces_on_grains_and_surfaces() {
+    let mut bed = bed();
+    run(&mut bed, 3000);
+    bed.evaluate().unwrap();
+    let column = |v: Vector| nalgebra::Vector3::from(v.to_array());
+    let product = |a: Vector, b: Vector| column(a) * column(b).transpose();
+    let mut sum = nalgebra::Matrix3::zeros();
+    for (grain, sphere) in bed.grains.spheres.iter().enumerate() {
+        sum += product(sphere.centre, bed.load(grain).0);
+    }
+    for held in bed.surfaces.all().filter(|h| h.patch.push.touches()) {
+        sum -= product(held.patch.point, held.patch.push.force);
+    }
+    let fabric = Fabric::of(&bed.contact_rows(), &bed.grains);
+    assert!(fabric.contacts > 20 && fabric.wall_contacts > 5);
+    assert!(
+        (fabric.contact - sum).norm() < 1e-12 * sum.norm(),
+        "{sum} {}",
+        fabric.contact
+    );
 }
 
 #[test]

@@ -144,3 +144,21 @@ fn every_file_says_what_it_is_for_and_stays_readable() {
         );
     }
 }
+
+#[test]
+fn rapier_is_named_in_the_machine_and_the_adapter_only() {
+    let names = |text: &str| {
+        let code = text
+            .lines()
+            .filter(|line| !line.trim_start().starts_with("//"));
+        code.into_iter().any(|line| line.contains("rapier3d"))
+    };
+    for (path, _, text) in sources() {
+        let allowed = ["bed/machine", "bed/adapter"].map(|place| path.starts_with(place));
+        assert!(
+            !names(&text) || allowed.contains(&true),
+            "{} names rapier",
+            path.display()
+        );
+    }
+}

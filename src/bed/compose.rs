@@ -1,11 +1,12 @@
 //! Composition: from names in a scene to a bed of one concrete type; every choice is made here, once.
 
+use super::contact_row::ContactRow;
 use super::damping::Viscous;
 use super::friction::{Mindlin, RollingSpring};
 use super::grains::Grains;
 use super::insertion::Newcomer;
 use super::law::{ContactLaw, Law};
-use super::machine::Machine;
+use super::machine::{Load, Machine};
 use super::measure::{Energies, Packing};
 use super::normals::{Model, NormalModel};
 use super::scene::ContactTable;
@@ -40,19 +41,6 @@ impl Effects {
     }
 }
 
-/// One contact of the bed, for files.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ContactRow {
-    /// Ends of the line the force acts through: centres, or centre and point of contact, m.
-    pub ends: [Vector; 2],
-    /// Force on the first end, N.
-    pub force: Vector,
-    /// Overlap, m.
-    pub overlap: f64,
-    /// Energy plastic flow has dissipated in it, J.
-    pub plastic: f64,
-}
-
 /// A bed whose law is known by name only: everything but the loops inside a step.
 pub trait AnyBed: Send + Keep {
     /// See [`Bed::evaluate`].
@@ -84,14 +72,18 @@ pub trait AnyBed: Send + Keep {
     /// Bodies, to be driven.
     fn machine_mut(&mut self) -> &mut Machine;
     /// Force of the grains on a body, N.
-    fn force_on(&self, body: usize) -> Vector;
+    fn force_on(&self, body: usize) -> Vector {
+        self.load_on(body).force
+    }
+    /// Force and torque of the grains on a body.
+    fn load_on(&self, body: usize) -> Load;
     /// See [`Bed::energies`].
     fn energies(&self) -> Energies;
     /// See [`Bed::packing`].
     fn packing(&self) -> Packing;
     /// See [`Bed::plastic_by_grain`].
     fn plastic_by_grain(&self) -> Vec<f64>;
-    /// Contacts that carry force.
+    /// See [`Bed::contact_rows`].
     fn contact_rows(&self) -> Vec<ContactRow>;
     /// See [`Bed::squeeze`].
     fn squeeze(&self) -> Vec<f64>;
@@ -147,8 +139,8 @@ impl<C: ContactLaw> AnyBed for Bed<C> {
         &mut self.machine
     }
 
-    fn force_on(&self, body: usize) -> Vector {
-        self.loads[body].force
+    fn load_on(&self, body: usize) -> Load {
+        self.loads[body]
     }
 
     fn energies(&self) -> Energies {
@@ -164,34 +156,7 @@ impl<C: ContactLaw> AnyBed for Bed<C> {
     }
 
     fn contact_rows(&self) -> Vec<ContactRow> {
-        let carries = |force: Vector| force != Vector::ZERO;
-        let pairs = self
-            .contacts
-            .pushes
-            .iter()
-            .enumerate()
-            .filter(|(_, push)| carries(push.force));
-        let pairs = pairs.map(|(index, push)| ContactRow {
-            ends: {
-                let second = self.contacts.list.pairs[index][1] as usize;
-                let end = self.grains.spheres[second].centre;
-                [end + self.contacts.line(index, &self.grains), end]
-            },
-            force: push.force,
-            overlap: self.squeeze_of(index).overlap,
-            plastic: self.plastic_in(index),
-        });
-        let held = self
-            .surfaces
-            .all()
-            .filter(|held| carries(held.patch.push.force));
-        let held = held.map(|held| ContactRow {
-            ends: [self.grains.spheres[held.grain].centre, held.patch.point],
-            force: held.patch.push.force,
-            overlap: held.squeeze(&self.grains).overlap,
-            plastic: self.plastic_on(&held),
-        });
-        pairs.chain(held).collect()
+        Bed::contact_rows(self)
     }
 
     fn squeeze(&self) -> Vec<f64> {

@@ -4,6 +4,7 @@ use super::grains::Grains;
 use super::insertion::{Newcomer, lattice, random_of, velocity_of};
 use super::region::Region;
 use super::scene::{Amount, Group, Insertion, Scene, Stage};
+use crate::tape::keep_fields;
 use parry3d::math::Vector;
 use rand::RngExt;
 
@@ -24,6 +25,7 @@ pub struct Inflow {
     /// Time its stream began, s.
     pub began: f64,
 }
+keep_fields!(Inflow: active, grains, mass, batches, began);
 
 /// Grains to come, group by group.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,6 +34,7 @@ pub struct Feed {
     /// One for each group of the scene.
     pub inflows: Vec<Inflow>,
 }
+keep_fields!(Feed: inflows);
 
 impl Feed {
     /// Nothing has come in; groups that no stage inserts are active.

@@ -4,6 +4,7 @@ use super::compose::AnyBed;
 use super::flow::{below, beverloo, bulk_density, steady_rate};
 use super::repose::{Slope, drum, heap};
 use super::scene::{Measure, Orifice, Plane, Scene};
+use crate::tape::{Keep, Tape, keep_fields};
 use serde::Serialize;
 
 /// A figure found by a measure.
@@ -60,6 +61,30 @@ pub struct Plunge {
     depth: f64,
     /// Largest force of the grains along z, N, and its time after the first touch, s.
     peak: [f64; 2],
+}
+
+keep_fields!(Flow: series, first, last, grains, bulk);
+keep_fields!(Plunge: touched, speed, depth, peak);
+
+/// What a gauge has read; what it is follows from the scene.
+impl Keep for Gauge {
+    fn save(&self, tape: &mut Tape) {
+        match self {
+            Gauge::Repose(..) => {}
+            Gauge::Slope(slopes) => slopes.save(tape),
+            Gauge::Flow(flow) => flow.save(tape),
+            Gauge::Plunge(plunge) => plunge.save(tape),
+        }
+    }
+
+    fn load(&mut self, tape: &mut Tape) -> Option<()> {
+        match self {
+            Gauge::Repose(..) => Some(()),
+            Gauge::Slope(slopes) => slopes.load(tape),
+            Gauge::Flow(flow) => flow.load(tape),
+            Gauge::Plunge(plunge) => plunge.load(tape),
+        }
+    }
 }
 
 impl Gauge {

@@ -141,11 +141,11 @@ impl<P: Press> Histories for Chunk<P> {
     }
 
     fn save(&self, tape: &mut Tape) {
-        self.histories[..].save(tape);
+        tape.save_few(&self.histories);
     }
 
     fn load(&mut self, tape: &mut Tape) -> Option<()> {
-        self.histories[..].load(tape)
+        tape.load_few(&mut self.histories)
     }
 
     fn same(&self, other: &dyn Histories) -> bool {

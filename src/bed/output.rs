@@ -1,16 +1,11 @@
-//! Output: the files of one bed run: time series, figures, and frames for ParaView.
+//! Output: the figures of one bed run, `summary.json`.
 
-use super::bodies::Solid;
-use super::compose::AnyBed;
 use super::gauge::Finding;
-use super::protocol::Observer;
 use super::row::{Row, closure};
-use super::vtp::{Column, PolyData, collection};
 use crate::files::write_atomic;
 use crate::{Error, Result};
-use parry3d::math::Vector;
 use serde::Serialize;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Figures of one run (keys of `summary.json`).
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -127,143 +122,5 @@ impl Summary {
         let text = serde_json::to_string_pretty(self)
             .map_err(|e| Error::file("write", &path)(e.into()))?;
         write_atomic(&path, text.as_bytes())
-    }
-}
-
-/// Writes frames of a run for ParaView: grains, contacts and bodies, each a series with its times.
-pub struct Frames {
-    folder: PathBuf,
-    every: usize,
-    rows: usize,
-    stage: String,
-    series: [Vec<(f64, String)>; 3],
-}
-
-/// Names of the three series.
-const SERIES: [&str; 3] = ["grains", "contacts", "bodies"];
-
-impl Frames {
-    /// Frames in `folder`, about `frames` of every `rows` rows of a stage.
-    #[must_use]
-    pub fn new(folder: &Path, rows: usize, frames: usize) -> Self {
-        Self {
-            folder: folder.to_owned(),
-            every: rows.checked_div(frames).unwrap_or(0),
-            rows: 0,
-            stage: String::new(),
-            series: Default::default(),
-        }
-    }
-
-    fn write(&mut self, bed: &dyn AnyBed, time: f64) -> Result<()> {
-        let number = self.series[0].len();
-        let frames = [grains(bed), contacts(bed), bodies(bed)];
-        for ((name, series), data) in SERIES.iter().zip(&mut self.series).zip(frames) {
-            let file = format!("{name}_{number:04}.vtp");
-            write_atomic(&self.folder.join(&file), data.text().as_bytes())?;
-            series.push((time, file));
-            let path = self.folder.join(format!("{name}.pvd"));
-            write_atomic(&path, collection(series).as_bytes())?;
-        }
-        Ok(())
-    }
-}
-
-impl Observer for Frames {
-    fn row(&mut self, bed: &dyn AnyBed, row: &Row) -> Result<()> {
-        if self.stage != row.stage {
-            (self.stage, self.rows) = (row.stage.clone(), 0);
-        }
-        let due = self.every > 0 && self.rows.is_multiple_of(self.every);
-        self.rows += 1;
-        if due {
-            self.write(bed, row.time_s)
-        } else {
-            Ok(())
-        }
-    }
-}
-
-/// Grains as points with their radius, motion and plastic dissipation.
-fn grains(bed: &dyn AnyBed) -> PolyData {
-    let grains = bed.grains();
-    PolyData {
-        points: grains.spheres.iter().map(|s| s.centre).collect(),
-        point_data: vec![
-            Column::scalars(
-                "radius_m",
-                grains.spheres.iter().map(|s| s.radius).collect(),
-            ),
-            Column::scalars("id", grains.ids.iter().map(|&id| f64::from(id)).collect()),
-            Column::vectors("velocity_m_s", grains.motions.iter().map(|m| m.velocity)),
-            Column::vectors("spin_rad_s", grains.spins.iter().map(|s| s.rate)),
-            Column::scalars("plastic_J", bed.plastic_by_grain()),
-        ],
-        ..PolyData::default()
-    }
-}
-
-/// Contacts that carry force, as lines with that force: the force chains.
-fn contacts(bed: &dyn AnyBed) -> PolyData {
-    let rows = bed.contact_rows();
-    PolyData {
-        points: rows.iter().flat_map(|row| row.ends).collect(),
-        lines: (0..rows.len() as u32).map(|i| [2 * i, 2 * i + 1]).collect(),
-        cell_data: vec![
-            Column::scalars(
-                "force_N",
-                rows.iter().map(|row| row.force.length()).collect(),
-            ),
-            Column::vectors("force_vector_N", rows.iter().map(|row| row.force)),
-            Column::scalars("overlap_m", rows.iter().map(|row| row.overlap).collect()),
-            Column::scalars("plastic_J", rows.iter().map(|row| row.plastic).collect()),
-        ],
-        ..PolyData::default()
-    }
-}
-
-/// Bodies as triangles, with the index and the load of each.
-fn bodies(bed: &dyn AnyBed) -> PolyData {
-    let machine = bed.machine();
-    let mut data = PolyData::default();
-    let (mut index, mut load) = (Vec::new(), Vec::new());
-    for (number, (body, surface)) in machine.bodies().iter().zip(&machine.surfaces).enumerate() {
-        let (vertices, triangles) = outline(&body.solid);
-        let first = data.points.len() as u32;
-        let place = |v: Vector| surface.pose.transform_point(v / machine.unit) * machine.unit;
-        data.points.extend(vertices.into_iter().map(place));
-        for triangle in triangles {
-            data.triangles.push(triangle.map(|corner| corner + first));
-            index.push(number as f64);
-            load.push(bed.force_on(number));
-        }
-    }
-    data.cell_data = vec![
-        Column::scalars("body", index),
-        Column::vectors("load_N", load),
-    ];
-    data
-}
-
-/// Triangles of a shape, m.
-fn outline(solid: &Solid) -> (Vec<Vector>, Vec<[u32; 3]>) {
-    /// Segments around a round shape: for looking at, not for contact.
-    const SEGMENTS: u32 = 32;
-    /// Half the edge of the part of a plane that is drawn, m.
-    const PLANE: f64 = 0.05;
-    match solid {
-        Solid::Cuboid(half) => parry3d::shape::Cuboid::new(*half).to_trimesh(),
-        Solid::Ball(radius) => parry3d::shape::Ball::new(*radius).to_trimesh(SEGMENTS, SEGMENTS),
-        Solid::Cylinder {
-            radius,
-            half_height,
-        } => parry3d::shape::Cylinder::new(*half_height, *radius).to_trimesh(SEGMENTS),
-        Solid::HalfSpace => {
-            parry3d::shape::Cuboid::new(Vector::new(PLANE, PLANE, 0.0)).to_trimesh()
-        }
-        Solid::Mesh {
-            vertices,
-            triangles,
-        } => (vertices.clone(), triangles.clone()),
     }
 }

@@ -2,12 +2,14 @@
 
 use super::compose::AnyBed;
 use super::feed::Feed;
+use super::film::Frame;
 use super::gauge::Gauge;
 use super::measure::Packing;
 use super::room::{PISTON, Room};
 use super::row::{Progress, Row, View};
 use super::scene::{Scene, Stage};
 use super::time_step::Limits;
+use crate::tape::{Keep, Keeper, TakenUp, keep_fields};
 use crate::{Error, Result};
 use parry3d::math::Vector;
 
@@ -16,8 +18,8 @@ pub const CHECK_EVERY: u64 = 50;
 /// Overlap over diameter at which a bed has left every contact law's ground and is stopped.
 const TOO_DEEP: f64 = 0.25;
 
-/// Receives what a run produces as it goes.
-pub trait Observer {
+/// Receives what a run produces as it goes, and is kept with it.
+pub trait Observer: Keep {
     /// A new row; the bed is as the row says.
     ///
     /// # Errors
@@ -43,6 +45,7 @@ pub struct Tally {
     /// Steps of single grains.
     pub particle_steps: u64,
 }
+keep_fields!(Tally: lost, max_overlap_ratio, beyond_validity, particle_steps);
 
 /// Where a run is within its stage: all that going on needs beside the bed.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -64,6 +67,7 @@ pub struct Place {
     /// Step of the last check.
     pub checked: u64,
 }
+keep_fields!(Place: begun, time, step, next_row, interval, face, growth, checked);
 
 /// A bed going through stages.
 pub struct Run<'a> {
@@ -76,7 +80,9 @@ pub struct Run<'a> {
     /// Grains to come.
     pub feed: Feed,
     /// Measures under way.
-    pub gauges: Vec<Gauge>,
+    pub gauges: Box<[Gauge]>,
+    /// The bed at the end of the last compression.
+    pub deepest: Option<Frame>,
     pub(super) scene: &'a Scene,
     pub(super) room: Room,
     observer: &'a mut dyn Observer,
@@ -85,6 +91,29 @@ pub struct Run<'a> {
     started: bool,
     pub(super) limits: Limits,
     pub(super) softening: f64,
+    /// Stages that have ended.
+    ended: usize,
+    keeper: Option<Keeper<'a>>,
+}
+keep_fields!(impl [] Run<'_>: bed, rows, tally, feed, gauges, deepest, observer, progress, place, started, softening,
+    ended);
+
+/// What a run leaves when its stages have ended.
+pub struct Done {
+    /// The bed.
+    pub bed: Box<dyn AnyBed>,
+    /// All rows.
+    pub rows: Vec<Row>,
+    /// All counts.
+    pub tally: Tally,
+    /// Grains that have not come in.
+    pub feed: Feed,
+    /// All measures.
+    pub gauges: Box<[Gauge]>,
+    /// The bed at the end of the last compression.
+    pub deepest: Option<Frame>,
+    /// Seconds the run took before it was taken up.
+    pub seconds_before: f64,
 }
 
 impl<'a> Run<'a> {
@@ -103,6 +132,7 @@ impl<'a> Run<'a> {
             tally: Tally::default(),
             feed,
             gauges: scene.measures.iter().map(Gauge::new).collect(),
+            deepest: None,
             scene,
             room,
             observer,
@@ -116,7 +146,58 @@ impl<'a> Run<'a> {
             started: false,
             limits: Limits::of(scene),
             softening: scene.contact.softening(),
+            ended: 0,
+            keeper: None,
         }
+    }
+
+    /// Takes up what `keeper` finds of this run, and keeps it from now on.
+    pub fn keep_by(&mut self, mut keeper: Keeper<'a>) -> TakenUp {
+        let taken = keeper.take_up_into(self);
+        self.keeper = Some(keeper);
+        taken
+    }
+
+    /// The end of the run.
+    #[must_use]
+    pub fn done(self) -> Done {
+        Done {
+            seconds_before: self.keeper.as_ref().map_or(0.0, Keeper::seconds_before),
+            bed: self.bed,
+            rows: self.rows,
+            tally: self.tally,
+            feed: self.feed,
+            gauges: self.gauges,
+            deepest: self.deepest,
+        }
+    }
+
+    /// Runs the stages that have not ended yet, one after the other.
+    ///
+    /// # Errors
+    /// As [`Run::stage`].
+    pub fn stages(&mut self, stages: &[&Stage]) -> Result<()> {
+        while let Some(stage) = stages.get(self.ended) {
+            self.stage(stage)?;
+            if matches!(stage, Stage::Compress { .. }) {
+                self.deepest = Some(Frame::of(self.bed.as_ref(), stage.name()));
+            }
+            self.ended += 1;
+        }
+        self.keep(true)
+    }
+
+    /// Keeps the run if it is time, or `now`; what it was at the last keeping is what an interrupted run goes on from.
+    fn keep(&mut self, now: bool) -> Result<()> {
+        let Some(mut keeper) = self.keeper.take() else {
+            return Ok(());
+        };
+        let kept = match now || keeper.is_due() {
+            true => keeper.keep(self),
+            false => Ok(()),
+        };
+        self.keeper = Some(keeper);
+        kept
     }
 
     /// Runs one stage to its end.
@@ -143,6 +224,9 @@ impl<'a> Run<'a> {
             self.change(stage);
             self.tally.particle_steps += self.bed.grains().len() as u64;
             self.bed.advance()?;
+            if survey.is_some() {
+                self.keep(false)?;
+            }
         }
     }
 

@@ -1,307 +1,324 @@
-//! Picture of beds side by side, by parry ray casts: grains coloured by how hard they are squeezed.
+//! Rendering of a bed by parry ray casts: grains in colours, bodies that move by themselves solid, walls as glass.
 
-use super::lettering;
-use super::run::Portrait;
-use crate::Result;
-use crate::files::write_atomic;
-use crate::unit::significant;
+use super::canvas::{INK, PAPER};
+use super::portrait::{Portrait, Sitter};
 use parry3d::bounding_volume::Aabb;
 use parry3d::math::{Pose, Vector};
 use parry3d::partitioning::{Bvh, BvhBuildStrategy};
 use parry3d::query::{Ray, RayCast};
-use parry3d::shape::{Ball, Cuboid};
+use parry3d::shape::Ball;
 use rayon::prelude::*;
-use std::path::Path;
 
-/// Pixels of one bed.
-const PANEL: [usize; 2] = [460, 480];
-/// Pixels above the beds for their names, and below for the colour bar.
-const MARGINS: [usize; 2] = [44, 76];
-/// Rays along each edge of a pixel.
-const SAMPLES: usize = 2;
+/// Rays along each edge of a pixel where its neighbours show something else; one elsewhere.
+const SAMPLES: usize = 3;
 /// Where the eye is, from the bed; far away, so that parallel edges stay parallel.
 const EYE: Vector = Vector::new(0.62, -0.9, 0.42);
+/// Distance of the eye, in grain radii.
+const FAR: f64 = 1e4;
 /// Where the light comes from.
 const LIGHT: Vector = Vector::new(0.25, -0.75, 1.0);
 /// Room around a bed, over its size.
-const BORDER: f64 = 1.06;
-/// Decades of force the colours span, down from the largest.
-const DECADES: f64 = 3.0;
-const PAPER: [f64; 3] = [1.0, 1.0, 1.0];
-const INK: [f64; 3] = [0.13, 0.14, 0.17];
+const BORDER: f64 = 1.12;
 const WALL: [f64; 3] = [0.90, 0.91, 0.93];
-const PISTON: [f64; 3] = [0.62, 0.65, 0.70];
-/// Colours from low to high: samples of the map "inferno" of matplotlib, lightened at the dark end to show shading.
-const COLOURS: [[f64; 3]; 7] = [
-    [0.16, 0.12, 0.35],
-    [0.34, 0.10, 0.43],
-    [0.55, 0.16, 0.41],
-    [0.75, 0.24, 0.33],
-    [0.91, 0.38, 0.19],
-    [0.98, 0.61, 0.10],
-    [0.98, 0.93, 0.55],
-];
+const GLASS: [f64; 3] = [0.55, 0.60, 0.66];
+const BODY: [f64; 3] = [0.52, 0.58, 0.66];
+/// How much of what is behind a wall it covers, seen straight on and more seen edge on.
+const COVER: [f64; 2] = [0.06, 0.14];
+/// How much an edge covers.
+const EDGE: f64 = 0.55;
 
-/// Picture in memory.
-struct Canvas {
-    width: usize,
-    height: usize,
-    pixels: Vec<[f64; 3]>,
-}
-
-/// One bed, ready for rays: lengths count the largest radius.
-struct View<'a> {
-    portrait: &'a Portrait,
-    tree: Bvh,
-    unit: f64,
-    /// Blocks that are drawn, with their colours: floor, the two far walls, the piston.
-    blocks: Vec<(Pose, Cuboid, [f64; 3])>,
+/// From where a bed is looked at: lengths count grain radii.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sight {
     right: Vector,
     up: Vector,
     eye: Vector,
     centre: Vector,
     /// Length of a pixel.
     pixel: f64,
+    size: [usize; 2],
 }
 
-/// What a ray hits first.
-struct Hit {
-    distance: f64,
-    normal: Vector,
-    colour: [f64; 3],
-}
-
-/// Writes a PNG of named beds, all on one scale of colours.
-///
-/// # Errors
-/// [`crate::Error::File`] when it cannot be written.
-pub fn write_picture(path: &Path, beds: &[(&str, &Portrait)]) -> Result<()> {
-    let squeezes = beds.iter().flat_map(|(_, portrait)| &portrait.squeeze);
-    let most = squeezes.fold(f64::MIN_POSITIVE, |most, &force| most.max(force));
-    let mut canvas = Canvas {
-        width: PANEL[0] * beds.len(),
-        height: MARGINS[0] + PANEL[1] + MARGINS[1],
-        pixels: Vec::new(),
-    };
-    canvas.pixels = vec![PAPER; canvas.width * canvas.height];
-    for (index, (name, portrait)) in beds.iter().enumerate() {
-        let pixels = View::new(portrait).draw(most);
-        for (at, pixel) in pixels.into_iter().enumerate() {
-            let (x, y) = (index * PANEL[0] + at % PANEL[0], MARGINS[0] + at / PANEL[0]);
-            canvas.pixels[y * canvas.width + x] = pixel;
-        }
-        canvas.write(name, [index * PANEL[0] + PANEL[0] / 2, 14], 3);
-    }
-    canvas.colour_bar(most);
-    write_atomic(path, &canvas.png())
-}
-
-impl<'a> View<'a> {
-    fn new(portrait: &'a Portrait) -> Self {
-        let unit = portrait.grains.largest_radius();
-        let boxes: Vec<Aabb> = portrait
-            .grains
-            .spheres
-            .iter()
-            .map(|s| Aabb::from_half_extents(s.centre / unit, Vector::splat(s.radius / unit)))
-            .collect();
-        let room = &portrait.room;
-        let (w, d, h) = (
-            room.width / unit,
-            room.depth / unit,
-            (portrait.face + room.thickness) / unit,
-        );
-        let face = portrait.face / unit;
-        let thin = 0.3;
-        let block = |low: Vector, high: Vector, colour| {
-            (
-                Pose::from_translation(0.5 * (low + high)),
-                Cuboid::new(0.5 * (high - low)),
-                colour,
-            )
-        };
-        let blocks = vec![
-            block(
-                Vector::new(-thin, 0.0, -thin),
-                Vector::new(w, d + thin, 0.0),
-                WALL,
-            ),
-            block(
-                Vector::new(-thin, 0.0, 0.0),
-                Vector::new(0.0, d + thin, h),
-                WALL,
-            ),
-            block(Vector::new(0.0, d, 0.0), Vector::new(w, d + thin, h), WALL),
-            block(Vector::new(0.0, 0.0, face), Vector::new(w, d, h), PISTON),
-        ];
+impl Sight {
+    /// Sight of the block between two corners, filling a picture of `size` pixels.
+    #[must_use]
+    pub fn of([low, high]: [Vector; 2], size: [usize; 2]) -> Self {
         let eye = EYE.normalize();
         let right = Vector::Z.cross(eye).normalize();
         let up = eye.cross(right);
-        let (centre, size) = (0.5 * Vector::new(w, d, h), Vector::new(w, d, h));
-        let seen = |axis: Vector| BORDER * size.dot(axis.abs());
-        let pixel = (seen(right) / PANEL[0] as f64).max(seen(up) / PANEL[1] as f64);
-        let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
+        let seen = |axis: Vector| BORDER * (high - low).dot(axis.abs());
         Self {
-            portrait,
-            tree,
-            unit,
-            blocks,
             right,
             up,
             eye,
-            centre,
-            pixel,
+            centre: 0.5 * (low + high),
+            pixel: (seen(right) / size[0] as f64).max(seen(up) / size[1] as f64),
+            size,
         }
     }
 
-    fn draw(&self, most: f64) -> Vec<[f64; 3]> {
-        (0..PANEL[0] * PANEL[1])
-            .into_par_iter()
-            .map(|at| {
-                let mut sum = [0.0; 3];
-                for sample in 0..SAMPLES * SAMPLES {
-                    let part = |k: usize| (k as f64 + 0.5) / SAMPLES as f64;
-                    let x = (at % PANEL[0]) as f64 + part(sample % SAMPLES) - 0.5 * PANEL[0] as f64;
-                    let y = (at / PANEL[0]) as f64 + part(sample / SAMPLES) - 0.5 * PANEL[1] as f64;
-                    let colour = self.look(x * self.pixel, -y * self.pixel, most);
-                    (0..3).for_each(|c| sum[c] += colour[c]);
-                }
-                sum.map(|c| c / (SAMPLES * SAMPLES) as f64)
-            })
-            .collect()
-    }
-
-    fn look(&self, x: f64, y: f64, most: f64) -> [f64; 3] {
-        const FAR: f64 = 1e3;
+    fn ray(&self, x: f64, y: f64) -> Ray {
+        let x = (x - 0.5 * self.size[0] as f64) * self.pixel;
+        let y = (0.5 * self.size[1] as f64 - y) * self.pixel;
         let origin = self.centre + self.right * x + self.up * y + self.eye * FAR;
-        let ray = Ray::new(origin, -self.eye);
-        let Some(hit) = self.first_hit(&ray, most) else {
-            return PAPER;
-        };
-        let light = LIGHT.normalize();
-        let point = ray.point_at(hit.distance) + hit.normal * 1e-6;
-        let lit = if self.first_hit(&Ray::new(point, light), most).is_some() {
-            0.0
-        } else {
-            1.0
-        };
-        let diffuse = hit.normal.dot(light).max(0.0) * lit;
-        // light from the sky keeps shadows readable; surfaces that face the eye are a little lighter
-        let sky = 0.5 + 0.2 * hit.normal.z + 0.15 * hit.normal.dot(self.eye).max(0.0);
-        let shine = hit
-            .normal
-            .dot((light + self.eye).normalize())
-            .max(0.0)
-            .powi(40)
-            * 0.25
-            * lit;
-        hit.colour
-            .map(|c| (c * (0.75 * sky + 0.5 * diffuse) + shine).min(1.0))
+        Ray::new(origin, -self.eye)
     }
 
-    fn first_hit(&self, ray: &Ray, most: f64) -> Option<Hit> {
-        let spheres = &self.portrait.grains.spheres;
-        let cast = |grain: u32, reach: f64| {
-            let sphere = &spheres[grain as usize];
-            let pose = Pose::from_translation(sphere.centre / self.unit);
-            Ball::new(sphere.radius / self.unit).cast_ray(&pose, ray, reach, true)
-        };
-        let grain = self
-            .tree
-            .cast_ray(ray, f64::MAX, cast)
-            .map(|(grain, distance)| {
-                let centre = spheres[grain as usize].centre / self.unit;
-                let colour = colour(level(self.portrait.squeeze[grain as usize], most));
-                Hit {
-                    distance,
-                    normal: (ray.point_at(distance) - centre).normalize(),
-                    colour,
-                }
-            });
-        let blocks = self.blocks.iter().filter_map(|(pose, block, colour)| {
-            let hit = block.cast_ray_and_get_normal(pose, ray, f64::MAX, true)?;
-            Some(Hit {
-                distance: hit.time_of_impact,
-                normal: hit.normal,
-                colour: *colour,
-            })
-        });
-        blocks
-            .chain(grain)
-            .min_by(|a, b| a.distance.total_cmp(&b.distance))
+    /// Pixel and distance from the eye of a point.
+    fn project(&self, point: Vector) -> ([f64; 2], f64) {
+        let from = point - self.centre;
+        let x = from.dot(self.right) / self.pixel + 0.5 * self.size[0] as f64;
+        let y = 0.5 * self.size[1] as f64 - from.dot(self.up) / self.pixel;
+        ([x, y], FAR - from.dot(self.eye))
     }
 }
 
-/// Place of a force on the scale of colours, from 0 to 1.
-fn level(force: f64, most: f64) -> f64 {
-    (1.0 + (force.max(f64::MIN_POSITIVE) / most).log10() / DECADES).clamp(0.0, 1.0)
+/// What is seen through a pixel: a grain's colour times `own` plus `rest`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Seen {
+    /// Grain, body or nothing: neighbours that differ make an edge.
+    what: usize,
+    grain: Option<usize>,
+    own: f64,
+    rest: [f64; 3],
+    distance: f64,
 }
 
-fn colour(level: f64) -> [f64; 3] {
-    let place = level * (COLOURS.len() - 1) as f64;
-    let low = (place as usize).min(COLOURS.len() - 2);
-    let part = place - low as f64;
-    [0, 1, 2].map(|c| COLOURS[low][c] * (1.0 - part) + COLOURS[low + 1][c] * part)
-}
-
-impl Canvas {
-    fn dot(&mut self, x: usize, y: usize, colour: [f64; 3]) {
-        if x < self.width && y < self.height {
-            self.pixels[y * self.width + x] = colour;
-        }
+impl Seen {
+    fn over(mut self, colour: [f64; 3], cover: f64) -> Self {
+        self.own *= 1.0 - cover;
+        self.rest = [0, 1, 2].map(|c| self.rest[c] * (1.0 - cover) + colour[c] * cover);
+        self
     }
 
-    /// Writes `text` with its middle at `x`, its top at `y`.
-    fn write(&mut self, text: &str, [x, y]: [usize; 2], size: usize) {
-        let left = x.saturating_sub(lettering::width(text) * size / 2);
-        lettering::draw(text, |column, row| {
-            for at in 0..size * size {
-                self.dot(
-                    left + column * size + at % size,
-                    y + row * size + at / size,
-                    INK,
-                );
+    fn colour(&self, paint: &[[f64; 3]]) -> [f64; 3] {
+        let own = self.grain.map_or([0.0; 3], |grain| paint[grain]);
+        [0, 1, 2].map(|c| (own[c] * self.own + self.rest[c]).min(1.0))
+    }
+}
+
+/// A bed ready for rays.
+struct Stage<'a> {
+    portrait: &'a Portrait,
+    sight: Sight,
+    tree: Bvh,
+}
+
+/// Pictures of a bed, one for each way its grains are painted.
+#[must_use]
+pub fn draw(portrait: &Portrait, sight: Sight, paints: &[Vec<[f64; 3]>]) -> Vec<Vec<[f64; 3]>> {
+    let boxes = portrait.centres.iter().zip(&portrait.radii);
+    let boxes: Vec<Aabb> = boxes
+        .map(|(&centre, &radius)| Aabb::from_half_extents(centre, Vector::splat(radius)))
+        .collect();
+    let stage = Stage {
+        portrait,
+        sight,
+        tree: Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes),
+    };
+    let [width, height] = sight.size;
+    let centre = |at: usize| ((at % width) as f64 + 0.5, (at / width) as f64 + 0.5);
+    let first: Vec<Seen> = (0..width * height)
+        .into_par_iter()
+        .map(|at| {
+            let (x, y) = centre(at);
+            stage.look(x, y)
+        })
+        .collect();
+    let colours: Vec<Vec<[f64; 3]>> = (0..width * height)
+        .into_par_iter()
+        .map(|at| {
+            let (x, y) = (at % width, at / width);
+            let differs = |other: usize| first[other].what != first[at].what;
+            let edge = (x > 0 && differs(at - 1))
+                || (x + 1 < width && differs(at + 1))
+                || (y > 0 && differs(at - width))
+                || (y + 1 < height && differs(at + width));
+            match edge {
+                true => stage.mix(x, y, paints),
+                false => paints.iter().map(|paint| first[at].colour(paint)).collect(),
             }
-        });
+        })
+        .collect();
+    let edges = stage.edges(&first);
+    let picture = |paint: usize| {
+        let inked = colours.iter().zip(&edges);
+        inked
+            .map(|(colour, &cover)| over(colour[paint], INK, cover))
+            .collect()
+    };
+    (0..paints.len()).map(picture).collect()
+}
+
+fn over(below: [f64; 3], colour: [f64; 3], cover: f64) -> [f64; 3] {
+    [0, 1, 2].map(|c| below[c] * (1.0 - cover) + colour[c] * cover)
+}
+
+impl Stage<'_> {
+    /// Mean of several rays through one pixel.
+    fn mix(&self, x: usize, y: usize, paints: &[Vec<[f64; 3]>]) -> Vec<[f64; 3]> {
+        let mut sums = vec![[0.0; 3]; paints.len()];
+        for sample in 0..SAMPLES * SAMPLES {
+            let part = |k: usize| (k as f64 + 0.5) / SAMPLES as f64;
+            let (x, y) = (
+                x as f64 + part(sample % SAMPLES),
+                y as f64 + part(sample / SAMPLES),
+            );
+            let seen = self.look(x, y);
+            for (sum, paint) in sums.iter_mut().zip(paints) {
+                let colour = seen.colour(paint);
+                (0..3).for_each(|c| sum[c] += colour[c] / (SAMPLES * SAMPLES) as f64);
+            }
+        }
+        sums
     }
 
-    /// Scale of colours with its numbers along the lower edge.
-    fn colour_bar(&mut self, most: f64) {
-        let length = (self.width * 3 / 4).min(720);
-        let (left, top) = ((self.width - length) / 2, MARGINS[0] + PANEL[1] + 8);
-        for x in 0..length {
-            let colour = colour(x as f64 / (length - 1) as f64);
-            (0..16).for_each(|y| self.dot(left + x, top + y, colour));
-        }
-        for decade in 0..=DECADES as usize {
-            let part = decade as f64 / DECADES;
-            let force = most * 10f64.powf(decade as f64 - DECADES);
-            let x = left + (part * (length - 1) as f64) as usize;
-            (16..21).for_each(|y| self.dot(x, top + y, INK));
-            self.write(&format!("{} N", significant(force, 2)), [x, top + 24], 2);
-        }
-        self.write(
-            "sum of contact forces on a grain",
-            [self.width / 2, top + 46],
-            2,
-        );
-    }
-
-    fn png(&self) -> Vec<u8> {
-        let bytes: Vec<u8> = self
-            .pixels
-            .iter()
-            .flatten()
-            .map(|c| (c.clamp(0.0, 1.0) * 255.0).round() as u8)
+    fn look(&self, x: f64, y: f64) -> Seen {
+        let ray = self.sight.ray(x, y);
+        let walls = self.portrait.bodies.iter().filter(|body| !body.free);
+        let mut glass: Vec<(f64, Vector)> = walls
+            .filter_map(|wall| hit(wall, &ray))
+            .filter(|(_, normal)| normal.dot(self.sight.eye) > 0.0)
             .collect();
-        let mut file = Vec::new();
-        let mut encoder = png::Encoder::new(&mut file, self.width as u32, self.height as u32);
-        encoder.set_color(png::ColorType::Rgb);
-        encoder.set_depth(png::BitDepth::Eight);
-        // writing to memory cannot fail; a picture that could not be encoded is left empty
-        if let Ok(mut writer) = encoder.write_header() {
-            let _ = writer.write_image_data(&bytes);
+        glass.sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
+        let mut seen = match self.solid(&ray) {
+            Some(seen) => seen,
+            None => match glass.first() {
+                // nothing behind: the last wall closes the view
+                Some(&(distance, normal)) => {
+                    let wall = self.lit(&ray, distance, normal, usize::MAX - 1);
+                    Seen {
+                        own: 0.0,
+                        rest: [0, 1, 2].map(|c| WALL[c] * wall.own + wall.rest[c]),
+                        ..wall
+                    }
+                }
+                None => Seen {
+                    what: usize::MAX,
+                    grain: None,
+                    own: 0.0,
+                    rest: PAPER,
+                    distance: f64::INFINITY,
+                },
+            },
+        };
+        for (distance, normal) in glass {
+            if distance < seen.distance {
+                let slant = 1.0 - normal.dot(self.sight.eye);
+                seen = seen.over(GLASS, COVER[0] + COVER[1] * slant);
+            }
         }
-        file
+        seen
     }
+
+    /// Grain or solid body that a ray meets first.
+    fn solid(&self, ray: &Ray) -> Option<Seen> {
+        let grain = self.grain(ray);
+        let bodies = self
+            .portrait
+            .bodies
+            .iter()
+            .enumerate()
+            .filter(|(_, body)| body.free);
+        let body = bodies
+            .filter_map(|(index, body)| Some((index, hit(body, ray)?)))
+            .min_by(|a, b| a.1.0.total_cmp(&b.1.0));
+        match (grain, body) {
+            (grain, Some((index, (distance, normal))))
+                if grain.is_none_or(|(_, nearest)| distance < nearest) =>
+            {
+                let lit = self.lit(ray, distance, normal, self.portrait.centres.len() + index);
+                Some(Seen {
+                    own: 0.0,
+                    rest: [0, 1, 2].map(|c| BODY[c] * lit.own + lit.rest[c]),
+                    ..lit
+                })
+            }
+            (Some((grain, distance)), _) => {
+                let normal = (ray.point_at(distance) - self.portrait.centres[grain]).normalize();
+                Some(Seen {
+                    grain: Some(grain),
+                    ..self.lit(ray, distance, normal, grain)
+                })
+            }
+            _ => None,
+        }
+    }
+
+    fn grain(&self, ray: &Ray) -> Option<(usize, f64)> {
+        let cast = |grain: u32, reach: f64| {
+            let pose = Pose::from_translation(self.portrait.centres[grain as usize]);
+            Ball::new(self.portrait.radii[grain as usize]).cast_ray(&pose, ray, reach, true)
+        };
+        let found = self.tree.cast_ray(ray, f64::MAX, cast);
+        found.map(|(grain, distance)| (grain as usize, distance))
+    }
+
+    /// Light on a point: factor of its own colour, and shine.
+    fn lit(&self, ray: &Ray, distance: f64, normal: Vector, what: usize) -> Seen {
+        let light = LIGHT.normalize();
+        let shadow = Ray::new(ray.point_at(distance) + normal * 1e-5, light);
+        let free = self.portrait.bodies.iter().filter(|body| body.free);
+        let mut free = free.filter_map(|body| hit(body, &shadow));
+        let lit = match self.grain(&shadow).is_some() || free.next().is_some() {
+            true => 0.0,
+            false => 1.0,
+        };
+        let diffuse = normal.dot(light).max(0.0) * lit;
+        // light from the sky keeps shadows readable; surfaces that face the eye are a little lighter
+        let eye = self.sight.eye;
+        let sky = 0.5 + 0.2 * normal.z + 0.15 * normal.dot(eye).max(0.0);
+        let shine = 0.25 * lit * normal.dot((light + eye).normalize()).max(0.0).powi(40);
+        Seen {
+            what,
+            grain: None,
+            own: 0.75 * sky + 0.5 * diffuse,
+            rest: [shine; 3],
+            distance,
+        }
+    }
+
+    /// How much the edges of bodies cover each pixel; an edge behind something solid is not seen.
+    fn edges(&self, seen: &[Seen]) -> Vec<f64> {
+        let [width, height] = self.sight.size;
+        let mut cover = vec![0.0f64; width * height];
+        for body in &self.portrait.bodies {
+            for ends in &body.outline.edges {
+                let [a, b] = ends.map(|end| {
+                    let corner = body.outline.vertices[end as usize];
+                    self.sight.project(body.pose.transform_point(corner))
+                });
+                let steps = (2.0 * (b.0[0] - a.0[0]).hypot(b.0[1] - a.0[1])).ceil();
+                for step in 0..=steps.min(1e5) as usize {
+                    let part = step as f64 / steps.max(1.0);
+                    let mix = |a: f64, b: f64| a + part * (b - a);
+                    let (x, y) = (mix(a.0[0], b.0[0]) - 0.5, mix(a.0[1], b.0[1]) - 0.5);
+                    for (i, j) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)] {
+                        let (column, row) = (x.floor() + i, y.floor() + j);
+                        let inside = column >= 0.0
+                            && row >= 0.0
+                            && column < width as f64
+                            && row < height as f64;
+                        let at = match inside {
+                            true => row as usize * width + column as usize,
+                            false => continue,
+                        };
+                        if mix(a.1, b.1) < seen[at].distance + 0.02 {
+                            let near = (1.0 - (x - column).abs()) * (1.0 - (y - row).abs());
+                            cover[at] = cover[at].max(EDGE * near);
+                        }
+                    }
+                }
+            }
+        }
+        cover
+    }
+}
+
+/// Where a ray enters a body.
+fn hit(body: &Sitter, ray: &Ray) -> Option<(f64, Vector)> {
+    let hit = body
+        .shape
+        .cast_ray_and_get_normal(&body.pose, ray, f64::MAX, true)?;
+    Some((hit.time_of_impact, hit.normal))
 }

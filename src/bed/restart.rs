@@ -41,8 +41,8 @@ const UNKNOWN: fn(usize) -> [u8; 2] = |_| [RIGID; 2];
 impl<C: ContactLaw> Keep for Contacts<C> {
     fn save(&self, tape: &mut Tape) {
         self.list.save(tape);
-        self.memory.save(tape);
-        self.pushes.save(tape);
+        tape.save_few(&self.memory);
+        tape.save_few(&self.pushes);
         self.histories.iter().for_each(|chunk| chunk.save(tape));
         self.chunks.save(tape);
         self.spent.save(tape);
@@ -50,8 +50,10 @@ impl<C: ContactLaw> Keep for Contacts<C> {
 
     fn load(&mut self, tape: &mut Tape) -> Option<()> {
         self.list.load(tape)?;
-        self.memory.load(tape)?;
-        self.pushes.load(tape)?;
+        self.memory = vec![C::Memory::default(); self.list.pairs.len()];
+        tape.load_few(&mut self.memory)?;
+        self.pushes = vec![Push::default(); self.list.pairs.len()];
+        tape.load_few(&mut self.pushes)?;
         let none = vec![None; self.list.pairs.len()];
         self.histories = self.model.chunks(&[], &none, PAIRS, &UNKNOWN);
         self.histories

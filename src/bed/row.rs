@@ -4,10 +4,11 @@ use super::compose::AnyBed;
 use super::measure::{Energies, Packing};
 use super::room::{PISTON, Room};
 use crate::material::Material;
+use crate::tape::keep_fields;
 use serde::Serialize;
 
 /// One instant of a bed. Field names are the header of `bed.csv`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Row {
     /// Stage.
     pub stage: String,
@@ -76,6 +77,7 @@ pub struct Row {
     #[serde(rename = "imbalance_J")]
     pub imbalance_j: f64,
 }
+keep_fields!(Row: stage, time_s, step, time_step_s, height_m, strain, stress_pa, lateral_stress_pa, virial_stress_pa, coordination, solid_fraction, max_overlap_ratio, beyond_validity, max_speed_m_s, inertial_number, kinetic_j, potential_j, elastic_j, springs_j, friction_j, rolling_j, damping_j, plastic_j, driven_work_j, stiffening_work_j, imbalance_j);
 
 /// What a row needs beside the bed.
 #[derive(Debug, Clone, Copy)]
@@ -102,6 +104,7 @@ pub struct Progress {
     /// Energy balance at the start of the account, J.
     pub first_balance: f64,
 }
+keep_fields!(Progress: stage, piston_speed, seated_height, first_balance);
 
 impl View<'_> {
     /// Stress on the piston, Pa.
@@ -181,6 +184,15 @@ impl View<'_> {
             stiffening_work_j: energies.stiffening,
             imbalance_j: energies.balance() - progress.first_balance,
         }
+    }
+}
+
+impl Row {
+    /// Energy dissipated by plastic flow over all energy dissipated so far.
+    #[must_use]
+    pub fn plastic_share(&self) -> f64 {
+        let lost = self.friction_j + self.rolling_j + self.damping_j + self.plastic_j;
+        self.plastic_j / lost.max(f64::MIN_POSITIVE)
     }
 }
 

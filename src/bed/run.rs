@@ -2,31 +2,37 @@
 
 use super::compose::{AnyBed, Effects, NormalsOf, build};
 use super::feed::Feed;
+use super::film::Frame;
 use super::grains::Grains;
 use super::insertion::{check_bodies, insert};
 use super::machine::{BodyState, Machine};
-use super::output::{Counts, Frames, Summary};
-use super::protocol::{Observer, Run};
-use super::render::write_picture;
+use super::oedometer;
+use super::output::{Counts, Summary};
+use super::picture::write_picture;
+use super::portrait::{Cast, Portrait};
+use super::protocol::{Done, Observer, Run};
+use super::record::Record;
 use super::room::Room;
 use super::row::Row;
 use super::scene::{Scene, Stage};
 use super::step::{Normals, Parts};
 use super::time_step::{self, Limits};
-use crate::Result;
 use crate::contact::LawVisitor;
 use crate::files::write_rows;
 use crate::law::{AnyLaw, LawFile};
+use crate::tape::{Checkpoint, Keeper, TakenUp, keep_fields};
 use crate::theory::hertz::Hertz;
-use serde::Serialize;
+use crate::{Error, Result};
 use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// Distance up to which neighbours are listed, over the largest radius: the best of a scan between lists that are
 /// short and lists that last.
 const SKIN: f64 = 0.15;
 /// Overlap over diameter above which a warning is given: contacts of one grain are then no longer apart.
 const DEEP: f64 = 0.05;
+/// File a run under way is kept in.
+const RESTART: &str = "restart.bin";
 
 /// How to run a scene.
 pub struct Options<'a> {
@@ -36,6 +42,8 @@ pub struct Options<'a> {
     pub provenance: &'a str,
     /// Seed instead of the scene's.
     pub seed: Option<u64>,
+    /// How often a run under way is kept, so that the same call goes on after an interruption; never if none.
+    pub checkpoint: Option<Duration>,
     /// Told what is being run, and of every row.
     pub progress: &'a (dyn Fn(&str, &Row) + Sync),
 }
@@ -50,21 +58,7 @@ pub struct LawRun {
     pub summary: Summary,
     /// The bed at the largest strain, or at the end, for a picture.
     pub portrait: Portrait,
-}
-
-/// What a picture of a bed needs.
-#[derive(Debug, Clone)]
-pub struct Portrait {
-    /// Grains.
-    pub grains: Grains,
-    /// Energy dissipated by plastic flow in the contacts of each grain, J.
-    pub plastic: Vec<f64>,
-    /// Sum of the contact forces on each grain, as magnitudes, N.
-    pub squeeze: Vec<f64>,
-    /// The box.
-    pub room: Room,
-    /// Height of the piston's face, m.
-    pub face: f64,
+    record: Record,
 }
 
 /// A scene's run.
@@ -77,28 +71,6 @@ pub struct BedReport {
     pub oedometer: PathBuf,
     /// Beds at the largest strain, side by side: `bed.png`.
     pub picture: PathBuf,
-}
-
-/// Row of `oedometer.csv`.
-#[derive(Serialize)]
-struct OedometerRow<'a> {
-    law: &'a str,
-    stage: &'a str,
-    strain: f64,
-    #[serde(rename = "stress_Pa")]
-    stress_pa: f64,
-    #[serde(rename = "lateral_stress_Pa")]
-    lateral_stress_pa: f64,
-    coordination: f64,
-    solid_fraction: f64,
-    #[serde(rename = "plastic_J")]
-    plastic_j: f64,
-    #[serde(rename = "friction_J")]
-    friction_j: f64,
-    #[serde(rename = "damping_J")]
-    damping_j: f64,
-    #[serde(rename = "driven_work_J")]
-    driven_work_j: f64,
 }
 
 /// Where all laws start from.
@@ -140,17 +112,21 @@ pub fn run_scene(scene: &Scene, given: Option<&LawFile>, options: &Options) -> R
         runs.push(under_law(scene, name, law, &start, options)?);
     }
     let oedometer = options.folder.join("bed/oedometer.csv");
-    let rows: Vec<OedometerRow> = runs
-        .iter()
-        .flat_map(|run| run.rows.iter().map(|row| oedometer_row(&run.law, row)))
-        .collect();
-    write_rows(&oedometer, options.provenance, &rows)?;
+    let series = runs.iter().map(|run| (run.law.as_str(), &run.rows[..]));
+    oedometer::write(&oedometer, options.provenance, series)?;
     let picture = options.folder.join("bed/bed.png");
     let portraits: Vec<(&str, &Portrait)> = runs
         .iter()
         .map(|run| (run.law.as_str(), &run.portrait))
         .collect();
     write_picture(&picture, &portraits)?;
+    // all is written: what an interrupted call would have gone on from is not needed any more
+    for run in packing.iter().chain(&runs) {
+        run.record.discard();
+        if let Some(checkpoint) = checkpoint(&run.law, options) {
+            Keeper::new(&checkpoint, "").forget();
+        }
+    }
     Ok(BedReport {
         packing,
         laws: runs,
@@ -164,22 +140,6 @@ fn laws(scene: &Scene, given: Option<&LawFile>) -> Result<Vec<AnyLaw>> {
     let material = &scene.materials[scene.groups[0].material];
     let names = scene.laws.iter();
     names.map(|name| material.law_in(name, given)).collect()
-}
-
-fn oedometer_row<'a>(law: &'a str, row: &'a Row) -> OedometerRow<'a> {
-    OedometerRow {
-        law,
-        stage: &row.stage,
-        strain: row.strain,
-        stress_pa: row.stress_pa,
-        lateral_stress_pa: row.lateral_stress_pa,
-        coordination: row.coordination,
-        solid_fraction: row.solid_fraction,
-        plastic_j: row.plastic_j,
-        friction_j: row.friction_j,
-        damping_j: row.damping_j,
-        driven_work_j: row.driven_work_j,
-    }
 }
 
 fn machine(scene: &Scene, room: &Room) -> Result<Machine> {
@@ -229,17 +189,18 @@ fn pack(scene: &Scene, start: &mut Start, options: &Options) -> Result<LawRun> {
     let law = normals(scene).visit(&Hertz::of(scene.material()));
     let bed = bed(scene, start, law, &effects)?;
     let mut observer = Watch::new("packing", scene, options);
+    let checkpoint = checkpoint("packing", options);
+    let plan = format!("{} {:?} packing", scene.hash, options.seed);
     let mut run = Run::new(bed, scene, start.room, start.feed.clone(), &mut observer);
-    for stage in scene.stages.iter().filter(|stage| stage.prepares()) {
-        run.stage(stage)?;
-    }
+    let stages: Vec<&Stage> = scene.stages.iter().filter(|s| s.prepares()).collect();
+    go(&mut run, &stages, &plan, checkpoint.as_ref())?;
     start.grains = run.bed.grains().clone();
     start.bodies = Some(run.bed.machine().state());
     start.time = run.bed.clock().1;
     start.feed = run.feed.clone();
     start.feed.restart_clock(start.time);
-    let portrait = portrait(run.bed.as_ref(), start.room, start.room.height);
-    finish("packing", scene, run, portrait, began, options)
+    let done = run.done();
+    finish("packing", scene, done, observer.record, began, options)
 }
 
 /// Runs the stages after the packing under one law.
@@ -255,39 +216,53 @@ fn under_law(
     let effects = Effects::of(&scene.contact, scene.material());
     let bed = bed(scene, start, normals, &effects)?;
     let mut observer = Watch::new(name, scene, options);
+    let checkpoint = checkpoint(name, options);
+    let plan = format!("{} {:?} {name} {law:?}", scene.hash, options.seed);
     let mut run = Run::new(bed, scene, start.room, start.feed.clone(), &mut observer);
-    let mut deepest = None;
-    for stage in scene.stages.iter().filter(|stage| !stage.prepares()) {
-        run.stage(stage)?;
-        if matches!(stage, Stage::Compress { .. }) {
-            let face = run
-                .rows
-                .last()
-                .map_or(start.room.height, |row| row.height_m);
-            deepest = Some(portrait(run.bed.as_ref(), start.room, face));
-        }
-    }
-    let portrait =
-        deepest.unwrap_or_else(|| portrait(run.bed.as_ref(), start.room, start.room.height));
-    finish(name, scene, run, portrait, began, options)
+    let stages: Vec<&Stage> = scene.stages.iter().filter(|s| !s.prepares()).collect();
+    go(&mut run, &stages, &plan, checkpoint.as_ref())?;
+    let done = run.done();
+    finish(name, scene, done, observer.record, began, options)
 }
 
-fn portrait(bed: &dyn AnyBed, room: Room, face: f64) -> Portrait {
-    Portrait {
-        grains: bed.grains().clone(),
-        plastic: bed.plastic_by_grain(),
-        squeeze: bed.squeeze(),
-        room,
-        face,
+/// Takes up what was kept of a run, and runs its stages to their end.
+fn go<'a>(
+    run: &mut Run<'a>,
+    stages: &[&Stage],
+    plan: &str,
+    checkpoint: Option<&'a Checkpoint>,
+) -> Result<()> {
+    if let Some(checkpoint) = checkpoint {
+        let path = checkpoint.path().display();
+        match run.keep_by(Keeper::new(checkpoint, plan)) {
+            TakenUp::Nothing => {}
+            TakenUp::Run => tracing::info!("taken up at step {} from {path}", run.bed.clock().2),
+            TakenUp::Other => {
+                tracing::warn!("{path} is of another scene, law, seed or program: started anew");
+            }
+            TakenUp::Damaged => {
+                return Err(Error::Bed {
+                    step: 0,
+                    reason: format!("{path} is damaged; remove it to start anew"),
+                });
+            }
+        }
     }
+    run.stages(stages)
+}
+
+/// Where a run is kept, if it is.
+fn checkpoint(name: &str, options: &Options) -> Option<Checkpoint> {
+    let path = folder(options, name).join(RESTART);
+    Some(Checkpoint::new(&path, options.checkpoint?))
 }
 
 /// Writes the files of one run.
 fn finish(
     name: &str,
     scene: &Scene,
-    run: Run,
-    portrait: Portrait,
+    run: Done,
+    record: Record,
     began: Instant,
     options: &Options,
 ) -> Result<LawRun> {
@@ -304,7 +279,7 @@ fn finish(
         grains: run.bed.grains().len(),
         steps: run.bed.clock().2,
         particle_steps: run.tally.particle_steps,
-        wall_s: began.elapsed().as_secs_f64(),
+        wall_s: run.seconds_before + began.elapsed().as_secs_f64(),
         lost: run.tally.lost,
         beyond_validity: run.tally.beyond_validity,
         max_overlap_ratio: run.tally.max_overlap_ratio,
@@ -318,17 +293,23 @@ fn finish(
     summary.warnings = warnings(scene, &run);
     let folder = folder(options, name);
     write_rows(&folder.join("bed.csv"), options.provenance, &run.rows)?;
+    let title = format!("{}: {name}", scene.name);
+    let told = format!("{} grains, {} steps", summary.grains, summary.steps);
+    record.finish(run.bed.as_ref(), &title, &told)?;
     summary.write(&folder)?;
+    let cast = Cast::of(run.bed.as_ref());
+    let now = || Frame::of(run.bed.as_ref(), "");
     Ok(LawRun {
         law: name.to_owned(),
         rows: run.rows,
         summary,
-        portrait,
+        portrait: cast.at(&run.deepest.unwrap_or_else(now)),
+        record,
     })
 }
 
 /// What a user must know before the figures are used.
-fn warnings(scene: &Scene, run: &Run) -> Vec<String> {
+fn warnings(scene: &Scene, run: &Done) -> Vec<String> {
     let (tally, mut warnings) = (&run.tally, Vec::new());
     if tally.lost > 0 {
         warnings.push(format!(
@@ -358,23 +339,19 @@ fn folder(options: &Options, name: &str) -> PathBuf {
     options.folder.join("bed").join(name)
 }
 
-/// Passes rows on to the frames and to the progress shown.
+/// Passes rows on to the files and to the progress shown.
 struct Watch<'a> {
     name: String,
-    frames: Frames,
+    record: Record,
     progress: &'a (dyn Fn(&str, &Row) + Sync),
 }
+keep_fields!(impl [] Watch<'_>: record);
 
 impl<'a> Watch<'a> {
     fn new(name: &str, scene: &Scene, options: &Options<'a>) -> Self {
-        let frames = Frames::new(
-            &folder(options, name).join("vtp"),
-            scene.output.rows,
-            scene.output.frames,
-        );
         Self {
             name: name.to_owned(),
-            frames,
+            record: Record::new(&folder(options, name), options.provenance, scene.output),
             progress: options.progress,
         }
     }
@@ -383,6 +360,6 @@ impl<'a> Watch<'a> {
 impl Observer for Watch<'_> {
     fn row(&mut self, bed: &dyn AnyBed, row: &Row) -> Result<()> {
         (self.progress)(&self.name, row);
-        self.frames.row(bed, row)
+        self.record.row(bed, row)
     }
 }

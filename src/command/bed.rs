@@ -1,5 +1,6 @@
 //! `bed`: a scene file to the files of its beds.
 
+use super::impact::interval;
 use super::{Context, Verdict, output_folder, print};
 use crate::bed::gauge::Finding;
 use crate::bed::run::{BedReport, Options, run_scene};
@@ -11,6 +12,7 @@ use crate::{Error, Result};
 use indicatif::ProgressBar;
 use std::fmt::Write;
 use std::path::Path;
+use std::time::Duration;
 
 /// Largest energy imbalance over turnover a run may show.
 const CLOSURE: f64 = 0.01;
@@ -22,14 +24,15 @@ const CLOSURE: f64 = 0.01;
 pub fn run(args: &BedArgs, context: &Context) -> Result<Verdict> {
     let scene = Scene::read(&args.scene)?;
     let law = args.law.as_deref().map(LawFile::read).transpose()?;
+    let interval = interval(&args.checkpoint)?;
     let folder = output_folder(args.out.as_deref(), &scene.name)?;
-    let report = simulate(&scene, law.as_ref(), &folder, args.seed, context)?;
+    let report = simulate(&scene, law.as_ref(), &folder, args.seed, interval, context)?;
     let compressed = |stage: &Stage| matches!(stage, Stage::Compress { .. });
     print(&summary(&report, scene.stages.iter().any(compressed)))?;
     Ok(verdict(&report))
 }
 
-/// Run a scene and write its files into `folder`.
+/// Run a scene and write its files into `folder`; the run under way is kept there every `interval`.
 ///
 /// # Errors
 /// Those of [`run_scene`].
@@ -38,6 +41,7 @@ pub fn simulate(
     law: Option<&LawFile>,
     folder: &Path,
     seed: Option<u64>,
+    interval: Duration,
     context: &Context,
 ) -> Result<BedReport> {
     let bar = context.progress(rows_expected(scene), "bed");
@@ -47,6 +51,7 @@ pub fn simulate(
             folder,
             provenance: &provenance,
             seed,
+            checkpoint: Some(interval),
             progress: &|_, _| advance(&bar),
         };
         run_scene(scene, law, &options)

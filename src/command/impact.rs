@@ -31,7 +31,10 @@ pub fn run(args: &ImpactArgs, context: &Context) -> Result<Verdict> {
 }
 
 /// Time between two checkpoints.
-fn interval(text: &str) -> Result<Duration> {
+///
+/// # Errors
+/// [`Error::Argument`] when the text is no time.
+pub fn interval(text: &str) -> Result<Duration> {
     let seconds = unit::argument::<Time>("--checkpoint", text)?;
     Duration::try_from_secs_f64(seconds).map_err(|_| Error::Argument {
         argument: "--checkpoint".to_owned(),

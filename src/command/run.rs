@@ -75,7 +75,8 @@ fn stages(
     comparison.write(out, &provenance)?;
     let bed = scene
         .map(|scene| {
-            bed::simulate(&scene, Some(&law), out, seed, context).map(|report| (scene, report))
+            bed::simulate(&scene, Some(&law), out, seed, impact::CHECKPOINT, context)
+                .map(|report| (scene, report))
         })
         .transpose()?;
     Ok(Results {

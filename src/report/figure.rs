@@ -124,6 +124,23 @@ impl Figure {
         )
     }
 
+    /// Part of all losses that went into plastic flow against axial strain, one curve a law.
+    ///
+    /// # Errors
+    /// [`crate::Error::Figure`] when it cannot be drawn.
+    pub fn plastic_share(series: Vec<Series>) -> Result<Self> {
+        Self::chart(
+            "bed_plastic_share".to_owned(),
+            "Energy lost to plastic flow over all energy lost so far, against axial strain of the bed."
+                .to_owned(),
+            Chart {
+                x: Axis::new("axial strain", ""),
+                y: Axis::new("plastic part of losses", ""),
+                series,
+            },
+        )
+    }
+
     /// Any chart as a figure.
     ///
     /// # Errors

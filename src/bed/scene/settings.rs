@@ -134,6 +134,14 @@ pub struct OutputTable {
     pub rows: usize,
     /// Frames of the VTP series in a stage.
     pub frames: usize,
+    /// Frames of the page `bed.html` in a stage; none for no page.
+    pub film: usize,
+    /// Most frames of `animation.png`; none for no animation.
+    pub animation: usize,
+    /// Whether contacts are also written as `contacts/contacts_NNNN.csv`, one a VTP frame.
+    pub contacts: bool,
+    /// Whether grains are also written as `dump.lammpstrj`, with the VTP frames.
+    pub dump: bool,
 }
 
 impl Default for OutputTable {
@@ -141,6 +149,10 @@ impl Default for OutputTable {
         Self {
             rows: 100,
             frames: 4,
+            film: 25,
+            animation: 0,
+            contacts: false,
+            dump: false,
         }
     }
 }
@@ -149,6 +161,12 @@ impl OutputTable {
     pub(super) fn check(self, document: &Document) -> Result<Self> {
         if self.rows == 0 {
             return Err(document.reject("output.rows", "must be at least 1"));
+        }
+        if self.animation > 0 && self.film == 0 {
+            return Err(document.reject(
+                "output.animation",
+                "needs `output.film` above 0: it is made from that",
+            ));
         }
         Ok(self)
     }

@@ -3,12 +3,13 @@
 use crate::Result;
 use crate::bed::row::Row;
 use crate::bed::run::{BedReport, LawRun};
-use crate::bed::scene::Scene;
+use crate::bed::scene::{FITTED, Scene};
 use crate::report::chart::{Mark, Series};
 use crate::report::figure::Figure;
 use crate::report::palette::Role;
 use crate::report::run_page::BedShow;
 use crate::report::table::Table;
+use crate::theory::Theory;
 use crate::unit::{engineering, significant};
 use std::path::Path;
 
@@ -25,6 +26,7 @@ pub fn bed(scene: &Scene, report: &BedReport, picture: &Path) -> Result<BedShow>
         figures: vec![
             Figure::stress_strain(series(|row| row.stress_pa))?,
             Figure::coordination(series(|row| row.coordination))?,
+            Figure::plastic_share(series(Row::plastic_share))?,
         ],
         picture: std::fs::read(picture).ok().map(|png| (png, caption)),
     })
@@ -60,8 +62,33 @@ fn facts(scene: &Scene, report: &BedReport) -> Vec<(String, String)> {
         "Inertial number at the largest stress",
         format!("at most {}", significant(inertia, 2)),
     ));
+    facts.extend(against_hertz(report).map(|text| ("Fitted law against Hertz", text)));
+    if scene.output.film > 0 {
+        let pages = report
+            .laws
+            .iter()
+            .map(|run| format!("bed/{}/bed.html", run.law));
+        facts.push(("In three dimensions", pages.collect::<Vec<_>>().join(", ")));
+    }
     let owned = |(name, value): (&str, String)| (name.to_owned(), value);
     facts.into_iter().map(owned).collect()
+}
+
+/// What yielding makes of an elastic bed, in one sentence; none unless the scene has both laws.
+fn against_hertz(report: &BedReport) -> Option<String> {
+    let named = |name: &str| report.laws.iter().find(|run| run.law == name);
+    let (fitted, hertz) = (
+        &named(FITTED)?.summary,
+        &named(Theory::Hertz.name())?.summary,
+    );
+    let percent = |value: f64| significant(100.0 * value, 2).replace('-', "\u{2212}");
+    Some(format!(
+        "largest stress {} times that of Hertz; strain left {} % against {} %; plastic flow {} % of the losses",
+        significant(fitted.max_stress_pa / hertz.max_stress_pa, 3),
+        percent(fitted.residual_strain),
+        percent(hertz.residual_strain),
+        percent(fitted.plastic_share)
+    ))
 }
 
 fn results(report: &BedReport) -> Table {
@@ -103,7 +130,7 @@ fn results(report: &BedReport) -> Table {
 fn line(run: &LawRun, value: fn(&Row) -> f64) -> Series {
     Series {
         label: run.law.clone(),
-        role: if run.law == crate::bed::scene::FITTED {
+        role: if run.law == FITTED {
             Role::Law
         } else {
             Role::Theory
