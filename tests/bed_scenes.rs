@@ -37,6 +37,7 @@ fn run_in(folder: &Path, text: &str) -> Result<BedReport, impactlaw::Error> {
         folder,
         provenance: "test",
         seed: None,
+        checkpoint: None,
         progress: &|_, _| (),
     };
     run_scene(&parse(text)?, None, &options)
