@@ -119,6 +119,11 @@ impl<const P: usize> Section<P> {
                     br.value[a] * bz.value[b] / r,
                 ]
             }),
+            factors: [
+                [br.value, br.slope],
+                [bz.value, bz.slope],
+                [[1.0 / r, 0.0, 0.0, 0.0], [0.0; 4]],
+            ],
             volume,
         }
     }

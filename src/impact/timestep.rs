@@ -79,12 +79,12 @@ impl<S: Space> StabilityLimit<S> {
             }
         }
         let mode = &self.mode;
-        let power = |_: &Sweep, force: &[S::Vector]| -> f64 {
-            let product = |(f, m): (&S::Vector, &S::Vector)| -> f64 {
-                let pairs = f.as_ref().iter().zip(m.as_ref());
+        let power = |_: &Sweep, forces: &[(usize, S::Vector)]| -> f64 {
+            let product = |(node, f): &(usize, S::Vector)| -> f64 {
+                let pairs = f.as_ref().iter().zip(mode[*node].as_ref());
                 pairs.map(|(f, m)| f * m).sum()
             };
-            force.iter().zip(mode).map(product).sum()
+            forces.iter().map(product).sum()
         };
         let rest = points.one_by_one(Purpose::Trial, u, power);
         let moved = points.one_by_one(Purpose::Trial, &self.moved, power);

@@ -113,6 +113,7 @@ impl<const P: usize> Volume<P> {
             position: x,
             values: std::array::from_fn(|n| weight(n, 3)),
             weights: std::array::from_fn(|n| [weight(n, 0), weight(n, 1), weight(n, 2)]),
+            factors: b.map(|b| [b.value, b.slope]),
             volume,
         }
     }

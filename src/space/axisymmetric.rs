@@ -28,6 +28,14 @@ pub struct AxialGradient {
     hoop: Lanes,
 }
 
+impl AxialGradient {
+    /// Determinant of the part in the section.
+    #[inline(always)]
+    fn plane(&self) -> Lanes {
+        self.rr * self.zz - self.rz * self.zr
+    }
+}
+
 impl Symmetric for AxialSymmetric {
     #[inline(always)]
     fn identity() -> Self {
@@ -86,6 +94,8 @@ impl Space for Axisymmetric {
     type Symmetric = AxialSymmetric;
     const NORMAL: usize = 1;
     const SLIDING: Option<usize> = None;
+    const DIRECTIONS: usize = 2;
+    const CURVED: bool = true;
 
     fn moment(_: &[f64; 2], _: &[f64; 2]) -> f64 {
         0.0
@@ -112,20 +122,54 @@ impl Space for Axisymmetric {
     #[inline(always)]
     fn add_node(g: &mut AxialGradient, u: &[f64; 2], w: &[Lanes; 3]) {
         let (ur, uz) = (Lanes::splat(u[0]), Lanes::splat(u[1]));
-        g.rr += ur * w[0];
-        g.rz += ur * w[1];
-        g.zr += uz * w[0];
-        g.zz += uz * w[1];
-        g.hoop += ur * w[2];
+        g.rr = ur.mul_add(w[0], g.rr);
+        g.rz = ur.mul_add(w[1], g.rz);
+        g.zr = uz.mul_add(w[0], g.zr);
+        g.zz = uz.mul_add(w[1], g.zz);
+        g.hoop = ur.mul_add(w[2], g.hoop);
     }
     #[inline(always)]
     fn add_force(force: &mut [Lanes; 3], p: &AxialGradient, w: &[Lanes; 3]) {
-        force[0] += p.rr * w[0] + p.rz * w[1] + p.hoop * w[2];
-        force[1] += p.zr * w[0] + p.zz * w[1];
+        force[0] =
+            p.rr.mul_add(w[0], p.rz.mul_add(w[1], p.hoop.mul_add(w[2], force[0])));
+        force[1] = p.zr.mul_add(w[0], p.zz.mul_add(w[1], force[1]));
+    }
+    #[inline(always)]
+    fn row(factors: &[Lanes], side: usize, row: usize) -> [Lanes; 3] {
+        let (value, slope) = (factors[2 * side + row], factors[3 * side + row]);
+        [value, slope, value * factors[4 * side]]
+    }
+    #[inline(always)]
+    fn add_row(g: &mut AxialGradient, u: &[[f64; 2]], first: &[Lanes], row: &[Lanes; 3]) {
+        let (values, slopes) = first.split_at(u.len());
+        let zero = Lanes::default();
+        let (mut r, mut r_slope, mut z, mut z_slope) = (zero, zero, zero, zero);
+        for (u, (value, slope)) in u.iter().zip(values.iter().zip(slopes)) {
+            let (ur, uz) = (Lanes::splat(u[0]), Lanes::splat(u[1]));
+            r = ur.mul_add(*value, r);
+            r_slope = ur.mul_add(*slope, r_slope);
+            z = uz.mul_add(*value, z);
+            z_slope = uz.mul_add(*slope, z_slope);
+        }
+        g.rr = r_slope.mul_add(row[0], g.rr);
+        g.rz = r.mul_add(row[1], g.rz);
+        g.zr = z_slope.mul_add(row[0], g.zr);
+        g.zz = z.mul_add(row[1], g.zz);
+        g.hoop = r.mul_add(row[2], g.hoop);
+    }
+    #[inline(always)]
+    fn add_row_force(force: &mut [Lanes], p: &AxialGradient, first: &[Lanes], row: &[Lanes; 3]) {
+        let (values, slopes) = first.split_at(force.len() / 2);
+        let (r_slope, z_slope) = (p.rr * row[0], p.zr * row[0]);
+        let (r, z) = (p.rz.mul_add(row[1], p.hoop * row[2]), p.zz * row[1]);
+        for (force, (value, slope)) in force.chunks_exact_mut(2).zip(values.iter().zip(slopes)) {
+            force[0] = r_slope.mul_add(*slope, r.mul_add(*value, force[0]));
+            force[1] = z_slope.mul_add(*slope, z.mul_add(*value, force[1]));
+        }
     }
     #[inline(always)]
     fn determinant(f: &AxialGradient) -> Lanes {
-        (f.rr * f.zz - f.rz * f.zr) * f.hoop
+        f.plane() * f.hoop
     }
     #[inline(always)]
     fn push_forward(f: &AxialGradient, c: &AxialSymmetric) -> AxialSymmetric {
@@ -143,12 +187,11 @@ impl Space for Axisymmetric {
     #[inline(always)]
     fn pull_back(f: &AxialGradient, recip_j: Lanes, b: &AxialSymmetric) -> AxialSymmetric {
         let scale = recip_j * f.hoop;
-        let recip_hoop = recip_j * (f.rr * f.zz - f.rz * f.zr);
-        let zero = Lanes::default();
+        let recip_hoop = recip_j * f.plane();
         let inverse = AxialGradient {
             rr: f.zz * scale,
-            rz: zero - f.rz * scale,
-            zr: zero - f.zr * scale,
+            rz: -f.rz * scale,
+            zr: -f.zr * scale,
             zz: f.rr * scale,
             hoop: recip_hoop,
         };
@@ -162,7 +205,7 @@ impl Space for Axisymmetric {
         volume: Lanes,
     ) -> AxialGradient {
         let scale = recip_j * f.hoop * volume;
-        let recip_hoop = recip_j * (f.rr * f.zz - f.rz * f.zr) * volume;
+        let recip_hoop = recip_j * f.plane() * volume;
         AxialGradient {
             rr: (tau.rr * f.zz - tau.rz * f.rz) * scale,
             rz: (tau.rz * f.rr - tau.rr * f.zr) * scale,

@@ -65,6 +65,27 @@ pub trait Space: Copy + Send + Sync + 'static {
     fn add_node(gradient: &mut Self::Gradient, u: &Self::Vector, w: &[Lanes; 3]);
     /// `force += P grad N` lane by lane, for one node with weights `w`.
     fn add_force(force: &mut [Lanes; 3], p: &Self::Gradient, w: &[Lanes; 3]);
+    /// Directions of the grid, each with splines of its own, and components of a vector.
+    const DIRECTIONS: usize;
+    /// Whether a point has one more factor, $1/r$.
+    const CURVED: bool;
+
+    /// Weights that the nodes of row `row` have in common: products of the factors of all directions but the first.
+    ///
+    /// `factors` of four points: values and slopes of `side` functions of the first direction, then of the second, ..., then
+    /// $1/r$ in a curved space. A row is the `side` nodes that differ in the first direction only.
+    fn row(factors: &[Lanes], side: usize, row: usize) -> [Lanes; 3];
+    /// `gradient += sum u (x) grad N` over the nodes of a row with weights `row`; `first` are the factors of the first
+    /// direction. What the nodes have in common is multiplied once.
+    fn add_row(
+        gradient: &mut Self::Gradient,
+        u: &[Self::Vector],
+        first: &[Lanes],
+        row: &[Lanes; 3],
+    );
+    /// `force += P grad N` lane by lane for each node of a row, all components of a node side by side; the counterpart of
+    /// [`Self::add_row`].
+    fn add_row_force(force: &mut [Lanes], p: &Self::Gradient, first: &[Lanes], row: &[Lanes; 3]);
     /// Determinant J.
     fn determinant(f: &Self::Gradient) -> Lanes;
     /// $F C F^T$.

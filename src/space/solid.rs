@@ -136,6 +136,8 @@ impl Space for Solid {
     type Symmetric = SolidSymmetric;
     const NORMAL: usize = 2;
     const SLIDING: Option<usize> = Some(0);
+    const DIRECTIONS: usize = 3;
+    const CURVED: bool = false;
 
     fn moment(x: &[f64; 3], v: &[f64; 3]) -> f64 {
         x[2] * v[0] - x[0] * v[2]
@@ -161,14 +163,50 @@ impl Space for Solid {
         for (row, u) in g.0.iter_mut().zip(u) {
             let u = Lanes::splat(*u);
             for (entry, w) in row.iter_mut().zip(w) {
-                *entry += u * *w;
+                *entry = u.mul_add(*w, *entry);
             }
         }
     }
     #[inline(always)]
     fn add_force(force: &mut [Lanes; 3], p: &SolidGradient, w: &[Lanes; 3]) {
         for (force, row) in force.iter_mut().zip(&p.0) {
-            *force += dot(row, w);
+            for (p, w) in row.iter().zip(w) {
+                *force = p.mul_add(*w, *force);
+            }
+        }
+    }
+    #[inline(always)]
+    fn row(factors: &[Lanes], side: usize, row: usize) -> [Lanes; 3] {
+        let (j, k) = (row % side, row / side);
+        let (y, y_slope) = (factors[2 * side + j], factors[3 * side + j]);
+        let (z, z_slope) = (factors[4 * side + k], factors[5 * side + k]);
+        [y * z, y_slope * z, y * z_slope]
+    }
+    #[inline(always)]
+    fn add_row(g: &mut SolidGradient, u: &[[f64; 3]], first: &[Lanes], row: &[Lanes; 3]) {
+        let (values, slopes) = first.split_at(u.len());
+        for (k, entries) in g.0.iter_mut().enumerate() {
+            let (mut sum, mut sum_slope) = (Lanes::default(), Lanes::default());
+            for (u, (value, slope)) in u.iter().zip(values.iter().zip(slopes)) {
+                let u = Lanes::splat(u[k]);
+                sum = u.mul_add(*value, sum);
+                sum_slope = u.mul_add(*slope, sum_slope);
+            }
+            entries[0] = sum_slope.mul_add(row[0], entries[0]);
+            entries[1] = sum.mul_add(row[1], entries[1]);
+            entries[2] = sum.mul_add(row[2], entries[2]);
+        }
+    }
+    #[inline(always)]
+    fn add_row_force(force: &mut [Lanes], p: &SolidGradient, first: &[Lanes], row: &[Lanes; 3]) {
+        let (values, slopes) = first.split_at(force.len() / 3);
+        for (k, p) in p.0.iter().enumerate() {
+            let along = p[0] * row[0];
+            let across = p[1].mul_add(row[1], p[2] * row[2]);
+            for (force, (value, slope)) in force.chunks_exact_mut(3).zip(values.iter().zip(slopes))
+            {
+                force[k] = along.mul_add(*slope, across.mul_add(*value, force[k]));
+            }
         }
     }
     #[inline(always)]

@@ -1,7 +1,7 @@
 //! What is done with points outside the hot loop: looked at, kept, swept cell by cell, weakened.
 
 use super::{Point, Points, Purpose, Sweep};
-use crate::lanes::WIDTH;
+use crate::lanes::{Lanes, WIDTH};
 use crate::material::stress::Constitutive;
 use crate::space::{Space, Symmetric};
 use crate::tape::{Keep, Tape};
@@ -58,10 +58,7 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
         for cell in &self.cells {
             let mut cold = self.cold[cell.cold as usize..].iter();
             for block in cell.first as usize..cell.last as usize {
-                let mut f = S::identity();
-                for (a, w) in self.weights[block].iter().enumerate() {
-                    S::add_node(&mut f, &u[cell.node as usize + self.offsets[a]], w);
-                }
+                let f = self.gradient(cell, block, u);
                 let j = S::determinant(&f);
                 let trial = self.material.trial(&f, j.recip_cbrt(), &self.states[block]);
                 let mises = (trial.deviator.squared_norm() * 1.5).sqrt() * j.recip();
@@ -95,22 +92,31 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
         x
     }
 
-    /// What `seen` makes of a sweep over each cell alone and of that cell's forces, in the order of the cells.
+    /// What `seen` makes of a sweep over each cell alone and of the forces on its nodes, in the order of the cells.
     pub fn one_by_one<T>(
         &mut self,
         purpose: Purpose,
         u: &[S::Vector],
-        mut seen: impl FnMut(&Sweep, &[S::Vector]) -> T,
+        mut seen: impl FnMut(&Sweep, &[(usize, S::Vector)]) -> T,
     ) -> Vec<T> {
-        let mut force = vec![S::Vector::default(); u.len()];
-        let cells = std::mem::take(&mut self.cells);
-        let mut answers = Vec::with_capacity(cells.len());
-        for cell in &cells {
-            self.cells = vec![*cell];
-            let sweep = self.sweep(purpose, u, &mut force);
-            answers.push(seen(&sweep, &force));
+        self.partial.clear();
+        self.partial
+            .resize(u.len() * S::DIRECTIONS, Lanes::default());
+        let mut answers = Vec::with_capacity(self.cells.len());
+        for index in 0..self.cells.len() {
+            let sweep = self.pass(index..index + 1, purpose, u);
+            let first = self.cells[index].node as usize;
+            let forces = self.offsets.map(|offset| {
+                let node = first + offset;
+                let mut force = S::Vector::default();
+                let lanes = &mut self.partial[node * S::DIRECTIONS..][..S::DIRECTIONS];
+                for (x, lanes) in force.as_mut().iter_mut().zip(lanes) {
+                    *x = 0.0 - std::mem::take(lanes).sum();
+                }
+                (node, force)
+            });
+            answers.push(seen(&sweep, &forces));
         }
-        self.cells = cells;
         answers
     }
 

@@ -8,12 +8,16 @@
 //! $(1 - \alpha) V U(\theta) + \alpha \sum V_0 U(J)$: alone, the mean leaves a yielding cell free to turn a point inside out.
 
 mod inspect;
+mod passes;
 
 pub use inspect::PointView;
 
 use crate::lanes::{Lanes, WIDTH};
-use crate::material::stress::{Constitutive, Response};
-use crate::space::{Space, Symmetric};
+use crate::material::stress::Constitutive;
+use crate::space::Space;
+
+/// Blocks that a pass works on before the next one follows: their weights stay in the nearest cache in between.
+const BATCH: usize = 16;
 
 /// A material point before it is packed.
 #[derive(Debug, Clone, Copy)]
@@ -24,8 +28,22 @@ pub struct Point<const N: usize> {
     pub values: [f64; N],
     /// Three derivative-like weights a node; their meaning belongs to the space.
     pub weights: [[f64; 3]; N],
+    /// Values and slopes of the functions of each direction, of which values and weights are products; in a curved space
+    /// the third holds $1/r$.
+    pub factors: [[[f64; 4]; 2]; 3],
     /// Reference volume.
     pub volume: f64,
+}
+
+impl<const N: usize> Point<N> {
+    /// The factors in the order in which [`Space::row`] takes them.
+    fn packed<S: Space>(&self, side: usize) -> impl Iterator<Item = f64> {
+        let splines = self.factors.iter().take(S::DIRECTIONS).flatten();
+        let functions = splines.flat_map(move |all| all.iter().take(side));
+        functions
+            .chain(self.factors[2][0].iter().take(usize::from(S::CURVED)))
+            .copied()
+    }
 }
 
 /// A cell of the grid that holds material.
@@ -42,6 +60,35 @@ struct Cell {
     volume: f64,
     /// Share of the stress that it still carries.
     strength: f64,
+    /// Mean dilatation of the last sweep.
+    dilatation: f64,
+}
+
+/// What the passes of a sweep hand on of one block.
+#[derive(Clone, Copy)]
+struct Scratch<G> {
+    /// Deformation gradients, then stresses times volumes.
+    gradient: G,
+    /// Volume ratios.
+    j: Lanes,
+}
+
+/// The number of which `nodes` is the power `directions`.
+const fn side(nodes: usize, directions: usize) -> usize {
+    let mut side: usize = 1;
+    while side.pow(directions as u32) < nodes {
+        side += 1;
+    }
+    side
+}
+
+impl<G> Scratch<G> {
+    fn virgin<S: Space<Gradient = G>>() -> Self {
+        Scratch {
+            gradient: S::identity(),
+            j: Lanes::splat(1.0),
+        }
+    }
 }
 
 /// Material points: blocks of four, grouped by cell, structure of arrays.
@@ -49,10 +96,13 @@ struct Cell {
 pub struct Points<S: Space, M: Constitutive<S>, const N: usize> {
     cells: Vec<Cell>,
     offsets: [usize; N],
-    weights: Vec<[[Lanes; 3]; N]>,
+    /// Factors of the weights, [`Self::STRIDE`] a block.
+    factors: Vec<Lanes>,
     volumes: Vec<Lanes>,
     states: Vec<M::State>,
-    scratch: Vec<(S::Gradient, Lanes)>,
+    scratch: Vec<Scratch<S::Gradient>>,
+    /// Forces on the nodes, not yet summed over the lanes: once a sweep instead of once a cell.
+    partial: Vec<Lanes>,
     /// Unpacked points, for snapshots only.
     cold: Vec<(u32, Point<N>)>,
     material: M,
@@ -83,16 +133,24 @@ pub enum Purpose {
 }
 
 impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
+    /// Functions a direction that reach into a cell.
+    const SIDE: usize = side(N, S::DIRECTIONS);
+    /// Rows of nodes a cell.
+    const ROWS: usize = N / Self::SIDE;
+    /// Factors a point.
+    const STRIDE: usize = 2 * Self::SIDE * S::DIRECTIONS + S::CURVED as usize;
+
     /// No points yet, on a grid whose cells reach their nodes by `offsets` from the first. `own_volume`: share of the
     /// volumetric stiffness that acts on each point's own volume ratio.
     pub fn new(material: M, offsets: [usize; N], own_volume: f64) -> Self {
         Points {
             cells: Vec::new(),
             offsets,
-            weights: Vec::new(),
+            factors: Vec::new(),
             volumes: Vec::new(),
             states: Vec::new(),
-            scratch: Vec::new(),
+            partial: Vec::new(),
+            scratch: vec![Scratch::virgin::<S>(); BATCH],
             cold: Vec::new(),
             material,
             own_volume,
@@ -101,28 +159,21 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
 
     /// Add the points of one cell. A block that is not full is padded with weightless copies of its last point.
     pub fn push_cell(&mut self, node: usize, points: &[Point<N>]) {
-        let first = self.weights.len() as u32;
+        let first = self.volumes.len() as u32;
         for block in points.chunks(WIDTH) {
-            let mut weights = [[[0.0; WIDTH]; 3]; N];
-            let mut volume = [0.0; WIDTH];
-            for lane in 0..WIDTH {
-                let point = &block[lane.min(block.len() - 1)];
-                for (node, factors) in weights.iter_mut().zip(&point.weights) {
-                    for (w, x) in node.iter_mut().zip(factors) {
-                        w[lane] = *x;
-                    }
-                }
-                volume[lane] = if lane < block.len() {
-                    point.volume
-                } else {
-                    0.0
-                };
-            }
-            self.weights.push(weights.map(|node| node.map(Lanes::new)));
-            self.volumes.push(Lanes::new(volume));
+            let point = |lane: usize| &block[lane.min(block.len() - 1)];
+            let packed: Vec<[f64; WIDTH]> = {
+                let mut columns = [0, 1, 2, 3].map(|lane| point(lane).packed::<S>(Self::SIDE));
+                let rows = (0..Self::STRIDE)
+                    .map(|_| columns.each_mut().map(|c| c.next().unwrap_or_default()));
+                rows.collect()
+            };
+            self.factors.extend(packed.into_iter().map(Lanes::new));
+            let volume = |lane: usize| block.get(lane).map_or(0.0, |p| p.volume);
+            self.volumes.push(Lanes::new([0, 1, 2, 3].map(volume)));
             self.states.push(self.material.virgin());
         }
-        let last = self.weights.len() as u32;
+        let last = self.volumes.len() as u32;
         self.cells.push(Cell {
             node: node as u32,
             first,
@@ -130,11 +181,11 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
             cold: self.cold.len() as u32,
             volume: points.iter().map(|p| p.volume).sum(),
             strength: 1.0,
+            dilatation: 1.0,
         });
         let blocks = (last - first) as usize;
         if self.scratch.len() < blocks {
-            self.scratch
-                .resize(blocks, (S::identity(), Lanes::splat(1.0)));
+            self.scratch.resize(blocks, Scratch::virgin::<S>());
         }
         self.cold.extend(points.iter().map(|p| (node as u32, *p)));
     }
@@ -172,121 +223,25 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
             std::mem::size_of_val(column)
         }
         size(&self.cells)
-            + size(&self.weights)
+            + size(&self.factors)
             + size(&self.volumes)
             + size(&self.states)
             + size(&self.scratch)
+            + size(&self.partial)
     }
 
-    /// Internal forces of the displacements `u`, written into `force`, with whatever vector instructions the machine has.
+    /// Internal forces of the displacements `u`, written into `force`.
     pub fn sweep(&mut self, purpose: Purpose, u: &[S::Vector], force: &mut [S::Vector]) -> Sweep {
-        #[cfg(target_arch = "x86_64")]
-        if std::arch::is_x86_feature_detected!("avx2") {
-            // SAFETY: the feature was detected on the line above.
-            return unsafe { self.sweep_avx2(purpose, u, force) };
-        }
-        self.sweep_any(purpose, u, force)
-    }
-
-    /// [`Self::sweep`] compiled for 256-bit registers.
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx2")]
-    fn sweep_avx2(&mut self, purpose: Purpose, u: &[S::Vector], force: &mut [S::Vector]) -> Sweep {
-        self.sweep_any(purpose, u, force)
-    }
-
-    #[inline(always)]
-    fn sweep_any(&mut self, purpose: Purpose, u: &[S::Vector], force: &mut [S::Vector]) -> Sweep {
-        force.fill(S::Vector::default());
-        let mut total = Sweep {
-            least_j: f64::INFINITY,
-            ..Sweep::default()
-        };
-        let mut least = Lanes::splat(f64::INFINITY);
-        let mut plastic = Lanes::default();
-        for index in 0..self.cells.len() {
-            let cell = self.cells[index];
-            let mean = self.gather(&cell, u, &mut least);
-            let moduli = self.material.moduli();
-            let pressure = moduli.volumetric_stress(mean) * (1.0 - self.own_volume);
-            let own_bulk = 0.5 * moduli.bulk * self.own_volume;
-            let mut local = [[Lanes::default(); 3]; N];
-            for block in cell.first as usize..cell.last as usize {
-                let (f, j) = self.scratch[block - cell.first as usize];
-                let volume = self.volumes[block] * cell.strength;
-                let recip_j = j.recip();
-                let answer = self.respond(purpose, block, &f, j, recip_j);
-                // a point turned inside out has no meaningful dissipation
-                plastic += j.zip(
-                    answer.dissipation * volume,
-                    |j, d| if j > 0.0 { d } else { 0.0 },
-                );
-                if purpose == Purpose::Audit {
-                    let energy = (answer.mean - Lanes::splat(1.0)) * (1.5 * moduli.shear)
-                        + j.map(|j| moduli.volumetric_energy(j)) * self.own_volume;
-                    total.elastic += (energy * volume).sum();
-                }
-                let own = (j * j - Lanes::splat(1.0)) * own_bulk;
-                let tau = answer.deviator.shifted(j * pressure + own);
-                let p = S::first_piola(&tau, &f, recip_j, volume);
-                for (force, w) in local.iter_mut().zip(&self.weights[block]) {
-                    S::add_force(force, &p, w);
-                }
-            }
-            if purpose == Purpose::Audit {
-                let share = 1.0 - self.own_volume;
-                total.elastic +=
-                    share * cell.strength * cell.volume * moduli.volumetric_energy(mean);
-            }
-            for (a, lanes) in local.iter().enumerate() {
-                let node = &mut force[cell.node as usize + self.offsets[a]];
-                for (x, lanes) in node.as_mut().iter_mut().zip(lanes) {
-                    *x -= lanes.sum();
-                }
+        self.partial.clear();
+        self.partial
+            .resize(force.len() * S::DIRECTIONS, Lanes::default());
+        let sweep = self.pass(0..self.cells.len(), purpose, u);
+        let sums = self.partial.chunks_exact(S::DIRECTIONS);
+        for (force, lanes) in force.iter_mut().zip(sums) {
+            for (x, lanes) in force.as_mut().iter_mut().zip(lanes) {
+                *x = 0.0 - lanes.sum();
             }
         }
-        total.plastic = plastic.sum();
-        total.least_j = least.min();
-        total
-    }
-
-    /// Deformation gradients of a cell's blocks into the scratch; returns the cell's mean dilatation.
-    #[inline(always)]
-    fn gather(&mut self, cell: &Cell, u: &[S::Vector], least: &mut Lanes) -> f64 {
-        let mut local = [S::Vector::default(); N];
-        for (a, x) in local.iter_mut().enumerate() {
-            *x = u[cell.node as usize + self.offsets[a]];
-        }
-        let mut volume = Lanes::default();
-        for block in cell.first as usize..cell.last as usize {
-            let mut f = S::identity();
-            for (u, w) in local.iter().zip(&self.weights[block]) {
-                S::add_node(&mut f, u, w);
-            }
-            let j = S::determinant(&f);
-            *least = least.zip(j, |a, b| if b >= a { a } else { b });
-            volume += j * self.volumes[block];
-            self.scratch[block - cell.first as usize] = (f, j);
-        }
-        volume.sum() / cell.volume
-    }
-
-    /// Isochoric response of one block.
-    #[inline(always)]
-    fn respond(
-        &mut self,
-        purpose: Purpose,
-        block: usize,
-        f: &S::Gradient,
-        j: Lanes,
-        recip_j: Lanes,
-    ) -> Response<S::Symmetric> {
-        let recip_cbrt_j = j.recip_cbrt();
-        if purpose == Purpose::Trial {
-            self.material.trial(f, recip_cbrt_j, &self.states[block])
-        } else {
-            self.material
-                .update(f, recip_j, recip_cbrt_j, &mut self.states[block])
-        }
+        sweep
     }
 }
