@@ -132,30 +132,45 @@ impl Lanes {
 
     /// Cube root of the reciprocal, $x^{-1/3}$ for $x > 0$, by iteration from below (no library call per point).
     ///
-    /// Starts at $3/(2+x) \le x^{-1/3}$ (arithmetic against geometric mean); with $r = 1 - x y^3$ the answer is
-    /// $y (1 - r)^{-1/3}$, whose series up to $r^3$ takes the error to its fourth power and stays below. Two steps reach
+    /// Starts at $3/(2+x) \le x^{-1/3}$ (arithmetic against geometric mean). Two steps of [`Self::toward_recip_cbrt`] reach
     /// rounding for $0.55 < x < 1.7$, and twelve more for $10^{-5} < x < 10^4$, which only large deformation asks for.
     #[inline(always)]
     #[must_use]
     pub fn recip_cbrt(self) -> Self {
-        let x = self;
-        let one = Lanes::splat(1.0);
-        let mut y = Lanes::splat(3.0) * (x + Lanes::splat(2.0)).recip();
-        let climb = |y: Lanes| {
-            let r = one - (x * y) * (y * y);
-            let series = r * Lanes::splat(14.0 / 81.0) + Lanes::splat(2.0 / 9.0);
-            let series = r * series + Lanes::splat(1.0 / 3.0);
-            (y * r) * series + y
-        };
-        for _ in 0..2 {
-            y = climb(y);
-        }
-        if (x - Lanes::splat(1.7)).any_positive() || (Lanes::splat(0.55) - x).any_positive() {
+        let near = self.near_recip_cbrt();
+        let mut y = near.toward_recip_cbrt(self).toward_recip_cbrt(self);
+        if self.is_far_from_one() {
             for _ in 0..12 {
-                y = climb(y);
+                y = y.toward_recip_cbrt(self);
             }
         }
         y
+    }
+
+    /// Where [`Self::recip_cbrt`] starts.
+    #[inline(always)]
+    #[must_use]
+    pub fn near_recip_cbrt(self) -> Self {
+        Lanes::splat(3.0) * (self + Lanes::splat(2.0)).recip()
+    }
+
+    /// One step from y = `self` to $x^{-1/3}$: with $r = 1 - x y^3$ the answer is $y (1 - r)^{-1/3}$, whose series up to $r^3$
+    /// takes the error to its fourth power and stays below.
+    #[inline(always)]
+    #[must_use]
+    pub fn toward_recip_cbrt(self, x: Self) -> Self {
+        let y = self;
+        let r = Lanes::splat(1.0) - (x * y) * (y * y);
+        let series = r * Lanes::splat(14.0 / 81.0) + Lanes::splat(2.0 / 9.0);
+        let series = r * series + Lanes::splat(1.0 / 3.0);
+        (y * r) * series + y
+    }
+
+    /// Whether two steps are too few for any lane.
+    #[inline(always)]
+    #[must_use]
+    pub fn is_far_from_one(self) -> bool {
+        (self - Lanes::splat(1.7)).any_positive() || (Lanes::splat(0.55) - self).any_positive()
     }
 }
 

@@ -73,12 +73,25 @@ pub trait Constitutive<S: Space>: Copy + Send + Sync + 'static {
     /// Elastic moduli.
     fn moduli(&self) -> Moduli;
     /// Response at deformation gradient `f`, $J^{-1/3}$ = `recip_cbrt_j`, updating the state.
+    #[inline(always)]
     fn update(
         &self,
         f: &S::Gradient,
         recip_j: Lanes,
         recip_cbrt_j: Lanes,
         state: &mut Self::State,
+    ) -> Response<S::Symmetric> {
+        let trial = self.trial(f, recip_cbrt_j, state);
+        self.settle(f, recip_j, recip_cbrt_j, state, &trial)
+    }
+    /// What becomes of a trial response: the state moves on where it was inelastic.
+    fn settle(
+        &self,
+        f: &S::Gradient,
+        recip_j: Lanes,
+        recip_cbrt_j: Lanes,
+        state: &mut Self::State,
+        trial: &Response<S::Symmetric>,
     ) -> Response<S::Symmetric>;
     /// Elastic trial response with the state frozen: what stiffness estimates use.
     fn trial(
@@ -105,14 +118,15 @@ impl<S: Space> Constitutive<S> for Elastic {
         self.moduli
     }
     #[inline(always)]
-    fn update(
+    fn settle(
         &self,
-        f: &S::Gradient,
+        _: &S::Gradient,
         _: Lanes,
-        recip_cbrt_j: Lanes,
-        state: &mut (),
+        _: Lanes,
+        (): &mut (),
+        trial: &Response<S::Symmetric>,
     ) -> Response<S::Symmetric> {
-        <Self as Constitutive<S>>::trial(self, f, recip_cbrt_j, state)
+        *trial
     }
     #[inline(always)]
     fn trial(&self, f: &S::Gradient, recip_cbrt_j: Lanes, _: &()) -> Response<S::Symmetric> {
@@ -171,20 +185,20 @@ impl<S: Space, F: FlowStress> Constitutive<S> for J2<F> {
         self.moduli
     }
     #[inline(always)]
-    fn update(
+    fn settle(
         &self,
         f: &S::Gradient,
         recip_j: Lanes,
         recip_cbrt_j: Lanes,
         state: &mut Self::State,
+        trial: &Response<S::Symmetric>,
     ) -> Response<S::Symmetric> {
-        let trial = <Self as Constitutive<S>>::trial(self, f, recip_cbrt_j, state);
         let radius = self.flow.stress(state.strain) * ROOT;
         let norm_squared = trial.deviator.squared_norm();
         if !(norm_squared - radius * radius).any_positive() {
-            return trial;
+            return *trial;
         }
-        self.return_to_yield::<S>(f, recip_j, recip_cbrt_j, state, &trial, norm_squared.sqrt())
+        self.return_to_yield::<S>(f, recip_j, recip_cbrt_j, state, trial, norm_squared.sqrt())
     }
     #[inline(always)]
     fn trial(

@@ -13,8 +13,8 @@ mod passes;
 pub use inspect::PointView;
 
 use crate::lanes::{Lanes, WIDTH};
-use crate::material::stress::Constitutive;
-use crate::space::Space;
+use crate::material::stress::{Constitutive, Response};
+use crate::space::{Space, Symmetric};
 
 /// Blocks that a pass works on before the next one follows: their weights stay in the nearest cache in between.
 const BATCH: usize = 16;
@@ -66,11 +66,15 @@ struct Cell {
 
 /// What the passes of a sweep hand on of one block.
 #[derive(Clone, Copy)]
-struct Scratch<G> {
+struct Scratch<S: Space> {
     /// Deformation gradients, then stresses times volumes.
-    gradient: G,
-    /// Volume ratios.
+    gradient: S::Gradient,
+    /// Volume ratios J, $1/J$ and $J^{-1/3}$.
     j: Lanes,
+    recip_j: Lanes,
+    recip_cbrt_j: Lanes,
+    /// Isochoric response.
+    response: Response<S::Symmetric>,
 }
 
 /// The number of which `nodes` is the power `directions`.
@@ -82,11 +86,19 @@ const fn side(nodes: usize, directions: usize) -> usize {
     side
 }
 
-impl<G> Scratch<G> {
-    fn virgin<S: Space<Gradient = G>>() -> Self {
+impl<S: Space> Scratch<S> {
+    fn virgin() -> Self {
+        let one = Lanes::splat(1.0);
         Scratch {
             gradient: S::identity(),
-            j: Lanes::splat(1.0),
+            j: one,
+            recip_j: one,
+            recip_cbrt_j: one,
+            response: Response {
+                deviator: S::Symmetric::identity(),
+                mean: one,
+                dissipation: Lanes::default(),
+            },
         }
     }
 }
@@ -100,7 +112,7 @@ pub struct Points<S: Space, M: Constitutive<S>, const N: usize> {
     factors: Vec<Lanes>,
     volumes: Vec<Lanes>,
     states: Vec<M::State>,
-    scratch: Vec<Scratch<S::Gradient>>,
+    scratch: Vec<Scratch<S>>,
     /// Forces on the nodes, not yet summed over the lanes: once a sweep instead of once a cell.
     partial: Vec<Lanes>,
     /// Unpacked points, for snapshots only.
@@ -150,7 +162,7 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
             volumes: Vec::new(),
             states: Vec::new(),
             partial: Vec::new(),
-            scratch: vec![Scratch::virgin::<S>(); BATCH],
+            scratch: vec![Scratch::virgin(); BATCH],
             cold: Vec::new(),
             material,
             own_volume,
@@ -185,7 +197,7 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
         });
         let blocks = (last - first) as usize;
         if self.scratch.len() < blocks {
-            self.scratch.resize(blocks, Scratch::virgin::<S>());
+            self.scratch.resize(blocks, Scratch::virgin());
         }
         self.cold.extend(points.iter().map(|p| (node as u32, *p)));
     }

@@ -1,11 +1,12 @@
 //! Passes of a sweep: a batch of cells is gathered, answered and scattered before the next one.
 //!
-//! Each pass is a loop of its own over independent blocks, so the long chain of one block's stress overlaps with the next,
-//! and the factors of a batch stay in the nearest cache in between. The weights of the nodes are products of one factor a
+//! Each pass is a short loop of its own over independent blocks: the chain of one block overlaps with the next, the compiler
+//! sees expressions small enough to keep whole registers, and the factors of a batch stay in the nearest cache in between.
+//! The weights of the nodes are products of one factor a
 //! direction: what the nodes of a row have in common is multiplied once, and a fifth (three dimensions) to a half of the
 //! memory is read that the products would take.
 
-use super::{Cell, Points, Purpose, Scratch, Sweep};
+use super::{Cell, Points, Purpose, Sweep};
 use crate::lanes::Lanes;
 use crate::material::stress::Constitutive;
 use crate::space::{Space, Symmetric};
@@ -48,6 +49,7 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
         while from < cells.end {
             let to = self.batch(from, cells.end);
             self.gather(from..to, u, &mut tally);
+            self.respond(from..to, purpose);
             self.answer(from..to, purpose, &mut tally);
             self.scatter(from..to);
             from = to;
@@ -84,7 +86,11 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
                 let j = S::determinant(&gradient);
                 tally.least = tally.least.zip(j, |a, b| if b >= a { a } else { b });
                 volume += j * self.volumes[block];
-                self.scratch[at] = Scratch { gradient, j };
+                let scratch = &mut self.scratch[at];
+                scratch.gradient = gradient;
+                scratch.j = j;
+                scratch.recip_j = j.recip();
+                scratch.recip_cbrt_j = j.near_recip_cbrt();
                 at += 1;
             }
             self.cells[index].dilatation = volume.sum() / cell.volume;
@@ -105,6 +111,50 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
         gradient
     }
 
+    /// Blocks of a batch of cells.
+    #[inline(always)]
+    fn blocks(cells: &[Cell]) -> impl Iterator<Item = usize> {
+        cells
+            .iter()
+            .flat_map(|cell| cell.first as usize..cell.last as usize)
+    }
+
+    /// Isochoric responses of a batch of cells.
+    #[inline(always)]
+    fn respond(&mut self, cells: Range<usize>, purpose: Purpose) {
+        let cells = &self.cells[cells];
+        let count = Self::blocks(cells).count();
+        let scratch = &mut self.scratch[..count];
+        let mut far = false;
+        for s in scratch.iter_mut() {
+            s.recip_cbrt_j = s.recip_cbrt_j.toward_recip_cbrt(s.j);
+            far |= s.j.is_far_from_one();
+        }
+        for s in scratch.iter_mut() {
+            s.recip_cbrt_j = s.recip_cbrt_j.toward_recip_cbrt(s.j);
+        }
+        if far {
+            for s in scratch.iter_mut() {
+                s.recip_cbrt_j = s.j.recip_cbrt();
+            }
+        }
+        for (s, block) in scratch.iter_mut().zip(Self::blocks(cells)) {
+            s.response = (self.material).trial(&s.gradient, s.recip_cbrt_j, &self.states[block]);
+        }
+        if purpose != Purpose::Trial {
+            for (s, block) in scratch.iter_mut().zip(Self::blocks(cells)) {
+                let state = &mut self.states[block];
+                s.response = self.material.settle(
+                    &s.gradient,
+                    s.recip_j,
+                    s.recip_cbrt_j,
+                    state,
+                    &s.response,
+                );
+            }
+        }
+    }
+
     /// Stresses of a batch of cells: the gradients in the scratch become first Piola-Kirchhoff stresses times volumes.
     #[inline(always)]
     fn answer(&mut self, cells: Range<usize>, purpose: Purpose, tally: &mut Tally) {
@@ -115,16 +165,8 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
         for cell in &self.cells[cells] {
             let pressure = moduli.volumetric_stress(cell.dilatation) * share;
             for (block, scratch) in (cell.first as usize..cell.last as usize).zip(&mut scratch) {
-                let Scratch { gradient: f, j } = *scratch;
                 let volume = self.volumes[block] * cell.strength;
-                let recip_j = j.recip();
-                let recip_cbrt_j = j.recip_cbrt();
-                let state = &mut self.states[block];
-                let answer = if purpose == Purpose::Trial {
-                    self.material.trial(&f, recip_cbrt_j, state)
-                } else {
-                    self.material.update(&f, recip_j, recip_cbrt_j, state)
-                };
+                let (j, answer) = (scratch.j, &scratch.response);
                 // a point turned inside out has no meaningful dissipation
                 let work = answer.dissipation * volume;
                 tally.plastic += work.where_positive(j, Lanes::default());
@@ -136,10 +178,8 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
                     tally.elastic += (energy * volume).sum();
                 }
                 let own = (j * j - Lanes::splat(1.0)) * own_bulk;
-                let tau = answer
-                    .deviator
-                    .shifted(j.mul_add(Lanes::splat(pressure), own));
-                scratch.gradient = S::first_piola(&tau, &f, recip_j, volume);
+                let tau = (answer.deviator).shifted(j.mul_add(Lanes::splat(pressure), own));
+                scratch.gradient = S::first_piola(&tau, &scratch.gradient, scratch.recip_j, volume);
             }
             if purpose == Purpose::Audit {
                 let energy = moduli.volumetric_energy(cell.dilatation);
