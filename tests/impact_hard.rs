@@ -234,6 +234,19 @@ fn fifty_times_the_strength_in_dynamic_pressure_spreads_into_a_sheet() {
 }
 
 #[test]
+fn a_crushed_rim_is_found_by_the_time_step_although_another_mode_was_the_fastest_before() {
+    // at a fifth of the speed of sound single cells are crushed to a quarter of their volume within some fifty steps
+    let body = Body {
+        poisson_ratio: 0.229,
+        tolerance: 0.0116,
+        ..Body::yielding(26.9, 1.25)
+    };
+    let s = body.simulated().summary;
+    assert!((0.6..0.63).contains(&(s.max_displacement_m / body.radius)));
+    assert!(s.eroded_volume_ratio < 0.01);
+}
+
+#[test]
 fn a_second_impact_meets_a_flattened_particle() {
     let body = Body::yielding(80.0, 0.008);
     let (case, plan) = body.planned();

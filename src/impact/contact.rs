@@ -7,14 +7,18 @@
 //!
 //! with the free nodal velocities $v_i$. There is no penalty, so no stiffness to choose, and the force does not depend on
 //! the time step. The problem is solved by an active-set method, warm-started from the last step, whose linear systems
-//! are banded because the points are ordered along the meridian; projected Gauss-Seidel takes over if the sets cycle.
+//! are banded because the points are ordered along the meridian; block pivoting keeps the sets from cycling, and projected
+//! Gauss-Seidel takes over if they do not close in time.
 
 use crate::impact::banded::Banded;
+pub use crate::impact::wall::{Touch, Wall};
 use crate::space::Space;
 use crate::tape::{Keep, Tape, keep_fields};
 
 /// Active-set iterations before Gauss-Seidel takes over.
-const MOST_CHANGES: usize = 12;
+const MOST_CHANGES: usize = 200;
+/// Iterations without fewer wrong points after which only one of them changes sides.
+const PATIENCE: usize = 4;
 /// Gauss-Seidel sweeps after which the remaining violation is accepted and reported.
 const MOST_SWEEPS: usize = 200;
 /// Share added to the diagonal of W: points closer than the splines can tell apart make it nearly singular. Between 1e-7 and
@@ -63,38 +67,6 @@ impl<S: Space, const N: usize> Keep for Contact<S, N> {
         self.candidates.load(tape)?;
         self.time.load(tape)
     }
-}
-
-/// What one step of contact did.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Touch {
-    /// Total normal impulse.
-    pub impulse: f64,
-    /// Total impulse in the direction of sliding.
-    pub tangential: f64,
-    /// Work of the impulses on the body (negative: taken out by touching points brought to rest).
-    pub work: f64,
-    /// Outermost deformed distance from the axis of a point that carries force; 0 without contact.
-    pub radius: f64,
-    /// Largest violation left, as a speed (0 where the active set closed).
-    pub residual: f64,
-}
-
-/// What a run asks of its contact with the wall.
-pub trait Wall<S: Space>: Clone + Keep {
-    /// Points that could touch within `horizon`, if nothing moves faster than `speed`; call now and then.
-    fn refresh(&mut self, u: &[S::Vector], speed: f64, horizon: f64);
-    /// Solve one step: `old` are the velocities before the forces, `v` the free velocities, corrected in place.
-    fn solve(
-        &mut self,
-        dt: f64,
-        u: &[S::Vector],
-        old: &[S::Vector],
-        v: &mut [S::Vector],
-        recip_mass: &[S::Vector],
-    ) -> Touch;
-    /// Deformed surface points of the meridian, pole to pole: distance from the axis and height above the wall.
-    fn outline(&self, u: &[S::Vector]) -> Vec<(f64, f64)>;
 }
 
 impl<S: Space, const N: usize> Wall<S> for Contact<S, N> {
@@ -146,15 +118,11 @@ impl<S: Space, const N: usize> Wall<S> for Contact<S, N> {
     }
 
     fn outline(&self, u: &[S::Vector]) -> Vec<(f64, f64)> {
-        (0..self.points.len())
-            .map(|c| {
-                let p = &self.points[c];
-                (
-                    p.radius + self.at(c, u, 0),
-                    p.height + self.at(c, u, S::NORMAL),
-                )
-            })
-            .collect()
+        let place = |(c, p): (usize, &ContactPoint<N>)| {
+            let (across, up) = (self.at(c, u, 0), self.at(c, u, S::NORMAL));
+            (p.radius + across, p.height + up)
+        };
+        self.points.iter().enumerate().map(place).collect()
     }
 }
 
@@ -252,28 +220,34 @@ impl<S: Space, const N: usize> Contact<S, N> {
     }
 
     /// Solve on the active points, drop those that pull, add those that penetrate, until nothing changes.
+    ///
+    /// Block principal pivoting (Judice and Pires 1994): all that are wrong change sides at once as long as their number
+    /// falls now and then, else only the last of them, which ends for any positive definite W (Murty 1974).
     fn close_active_set(&mut self, candidates: &[usize]) -> bool {
+        let (mut fewest, mut patience) = (usize::MAX, PATIENCE);
         for _ in 0..MOST_CHANGES {
             self.solve_active(candidates);
-            let mut changed = false;
-            for &c in candidates {
-                if self.points[c].active && self.points[c].impulse <= 0.0 {
-                    self.points[c].active = false;
-                    changed = true;
-                }
-            }
-            for &c in candidates {
-                let inactive = !self.points[c].active;
-                if inactive
-                    && self.points[c].impulse == 0.0
-                    && self.speed_after(c) < -self.tolerance
-                {
-                    self.points[c].active = true;
-                    changed = true;
-                }
-            }
-            if !changed {
+            let wrong = |c: &usize| {
+                let p = &self.points[*c];
+                (p.active && p.impulse <= 0.0)
+                    || (!p.active && self.speed_after(*c) < -self.tolerance)
+            };
+            let all: Vec<usize> = candidates.iter().copied().filter(wrong).collect();
+            let Some(last) = all.last() else {
                 return true;
+            };
+            if all.len() < fewest {
+                (fewest, patience) = (all.len(), PATIENCE);
+            } else {
+                patience = patience.saturating_sub(1);
+            }
+            let changed = if patience > 0 {
+                &all
+            } else {
+                std::slice::from_ref(last)
+            };
+            for &c in changed {
+                self.points[c].active = !self.points[c].active;
             }
         }
         false
@@ -365,6 +339,42 @@ impl<S: Space, const N: usize> Contact<S, N> {
             if impulse > 0.0 {
                 let speeds = self.at(c, old, S::NORMAL) + self.at(c, v, S::NORMAL);
                 touch.work += 0.5 * impulse * speeds;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn impulses_and_gap_rates_are_complementary_for_any_approach() {
+        let values = |s: f64| [0.5 * (1.0 - s).powi(2), 0.5 + s - s * s, 0.5 * s * s];
+        let mut contact = Contact::<crate::space::Axisymmetric, 3>::new([0, 1, 2], 1e-9);
+        for x in (0..56).map(|c| 0.5 * f64::from(c)) {
+            contact.push(x as usize, values(x.fract()), 0.0, x);
+        }
+        let recip_mass: Vec<[f64; 2]> = (0..30).map(|n| [1.0, 1.0 + f64::from(n % 4)]).collect();
+        contact.couple(&recip_mass);
+        contact.candidates = (0..56).collect();
+        for seed in 0..40 {
+            let speed = |n: i32| (f64::from(n * n) * 1.7 + 0.31 * f64::from(seed)).sin() - 0.2;
+            let still = [[0.0; 2]; 30];
+            let mut v: Vec<[f64; 2]> = (0..30).map(|n| [0.0, speed(n)]).collect();
+            let touch = contact.solve(1.0, &still, &still, &mut v, &recip_mass);
+            assert_eq!(touch.residual, 0.0, "the active set closed");
+            for (c, p) in contact.points.iter().enumerate() {
+                assert!(p.impulse >= 0.0 && (p.impulse > 0.0) == p.active);
+                let rate = contact.speed_after(c);
+                assert!(
+                    if p.active {
+                        rate.abs() < 1e-9
+                    } else {
+                        rate > -1e-9
+                    },
+                    "{rate}"
+                );
             }
         }
     }

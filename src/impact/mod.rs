@@ -24,6 +24,7 @@ pub mod solid;
 pub mod timestep;
 pub mod updated;
 pub mod volume;
+pub mod wall;
 
 use self::choice::Job;
 use self::record::Record;

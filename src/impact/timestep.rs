@@ -12,6 +12,10 @@ use crate::tape::keep_fields;
 const SAFETY: f64 = 0.85;
 /// Size of the probing displacement (lengths are in particle radii).
 const PROBE: f64 = 1e-8;
+/// Share of the start vector that is mixed into the last mode before it is iterated again. A mode that sits in a few cells
+/// falls below rounding elsewhere ($u + 10^{-8} m = u$), and from there on the iteration is blind: cells squeezed later than
+/// those would never be found.
+const STIRRED: f64 = 1e-3;
 
 /// Estimator of the largest frequency, warm-started from its last answer.
 #[derive(Debug, Clone)]
@@ -28,12 +32,7 @@ impl<S: Space> StabilityLimit<S> {
     /// Estimator for `nodes` nodes; the start vector alternates in sign, near the highest mode.
     pub fn new(nodes: usize) -> Self {
         let mut mode = vec![S::Vector::default(); nodes];
-        for (n, m) in mode.iter_mut().enumerate() {
-            for (k, x) in m.as_mut().iter_mut().enumerate() {
-                // a fixed irregular pattern: no mode is orthogonal to it
-                *x = if (n * 7 + k * 3) % 5 < 2 { 1.0 } else { -1.0 };
-            }
-        }
+        stir::<S>(&mut mode, 1.0);
         StabilityLimit {
             mode,
             rest: vec![S::Vector::default(); nodes],
@@ -51,6 +50,8 @@ impl<S: Space> StabilityLimit<S> {
         iterations: usize,
     ) -> f64 {
         points.sweep(Purpose::Trial, u, &mut self.rest);
+        let stirred = STIRRED * largest_component(&self.mode);
+        stir::<S>(&mut self.mode, stirred);
         let mut squared = 0.0f64;
         for _ in 0..iterations {
             let scale = 1.0 / largest_component(&self.mode);
@@ -108,6 +109,15 @@ impl<S: Space> StabilityLimit<S> {
             }
         }
         (new / old).sqrt()
+    }
+}
+
+/// Add a fixed irregular pattern of +-`size`: no mode is orthogonal to it.
+fn stir<S: Space>(mode: &mut [S::Vector], size: f64) {
+    for (n, mode) in mode.iter_mut().enumerate() {
+        for (k, x) in mode.as_mut().iter_mut().enumerate() {
+            *x += if (n * 7 + k * 3) % 5 < 2 { size } else { -size };
+        }
     }
 }
 

@@ -2,9 +2,8 @@
 //!
 //! Each pass is a short loop of its own over independent blocks: the chain of one block overlaps with the next, the compiler
 //! sees expressions small enough to keep whole registers, and the factors of a batch stay in the nearest cache in between.
-//! The weights of the nodes are products of one factor a
-//! direction: what the nodes of a row have in common is multiplied once, and a fifth (three dimensions) to a half of the
-//! memory is read that the products would take.
+//! The weights of the nodes are products of one factor a direction: what the nodes of a row have in common is multiplied
+//! once, and a fifth (three dimensions) to a half of the memory is read that the products would take.
 
 use super::{Cell, Points, Purpose, Sweep};
 use crate::lanes::Lanes;
@@ -285,7 +284,12 @@ mod tests {
             unsafe { p.pass_avx2(0..p.cells.len(), Purpose::Audit, u) }
         });
         assert_eq!(plain, vector);
-        let full = || solid::build(&GRID, Geometry::Quarter, metal(), Frictionless, 1e-9);
+        let mesh = solid::Mesh {
+            grid: &GRID,
+            layout: Layout::Fitted,
+            geometry: Geometry::Quarter,
+        };
+        let full = || solid::build::<_, _, 2, 27>(mesh, metal(), Frictionless, 1e-9);
         let nodes = full().mass.len();
         let plain = bits(full().points, nodes, |p, u| {
             p.pass_any(0..p.cells.len(), Purpose::Audit, u)

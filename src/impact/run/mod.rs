@@ -307,11 +307,11 @@ where
         let sweep = self.forces(purpose);
         self.plastic += sweep.plastic;
         let dt = self.dt;
-        for n in 0..self.u.len() {
-            self.old[n] = self.v[n];
-            let (force, weight) = (self.force[n], self.model.recip_mass[n]);
+        self.old.copy_from_slice(&self.v);
+        let pushes = self.force.iter().zip(&self.model.recip_mass);
+        for (v, (force, weight)) in self.v.iter_mut().zip(pushes) {
             let components = force.as_ref().iter().zip(weight.as_ref());
-            for (v, (f, w)) in self.v[n].as_mut().iter_mut().zip(components) {
+            for (v, (f, w)) in v.as_mut().iter_mut().zip(components) {
                 *v += dt * f * w;
             }
         }
