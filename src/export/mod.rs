@@ -5,9 +5,12 @@
 
 pub mod c;
 pub mod check;
+pub mod contact;
 pub mod describe;
 pub mod kernel;
 pub mod native;
+pub mod lammps;
+pub mod liggghts;
 pub mod portable;
 pub mod reference;
 pub mod table;
@@ -29,6 +32,10 @@ pub struct Artifact {
 pub enum Target {
     /// [`c`].
     C,
+    /// [`liggghts`].
+    Liggghts,
+    /// [`lammps`].
+    Lammps,
     /// [`table`].
     Table,
     /// [`native`].
@@ -37,13 +44,21 @@ pub enum Target {
 
 impl Target {
     /// Every target, in the order of messages.
-    pub const ALL: [Target; 3] = [Target::C, Target::Table, Target::Native];
+    pub const ALL: [Target; 5] = [
+        Target::C,
+        Target::Liggghts,
+        Target::Lammps,
+        Target::Table,
+        Target::Native,
+    ];
 
     /// Name on the command line.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Target::C => "c",
+            Target::Liggghts => "liggghts",
+            Target::Lammps => "lammps",
             Target::Table => "table",
             Target::Native => "native",
         }
@@ -56,6 +71,8 @@ impl Target {
     pub fn export(self, law: &Portable) -> Result<Vec<Artifact>> {
         Ok(match self {
             Target::C => c::export(law),
+            Target::Liggghts => liggghts::export(law),
+            Target::Lammps => lammps::export(law),
             Target::Table => table::export(law),
             Target::Native => native::files(law)?,
         })

@@ -2,6 +2,9 @@
 
 mod c;
 mod native;
+mod impacts;
+pub mod lammps;
+pub mod liggghts;
 pub mod paths;
 mod process;
 
@@ -71,6 +74,8 @@ pub fn all() -> Vec<Box<dyn Check>> {
         Box::new(NativeCheck(Code::Liggghts)),
         Box::new(NativeCheck(Code::Lammps)),
         Box::new(NativeCheck(Code::Yade)),
+        Box::new(liggghts::LiggghtsCheck),
+        Box::new(lammps::LammpsCheck),
     ]
 }
 

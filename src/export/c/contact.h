@@ -1,0 +1,173 @@
+/* Contact of grains under the law `@NAME@`: friction, rolling resistance and damping around the normal force.
+ *
+ * Everything is written for a first body and a second one: the unit normal points from the second to the first, forces
+ * and moments act on the first. The velocities are those half a step before the positions, as a leapfrog or velocity
+ * Verlet scheme has them when forces are due.
+ *
+ * damping   F_d = 2 sqrt(5/6) beta sqrt(m k) v, beta = -ln e / sqrt(pi^2 + ln^2 e), k = dF/d(overlap) of the law,
+ *           m the effective mass; the sum with the law's force never pulls. The same on the tangential spring.
+ * friction  Mindlin's spring k_t = 8 G/(2 - nu)/s a (s = 1 on a rigid surface, 2 between grains of the law's material;
+ *           a: contact radius) that slides at mu F. While the stiffness grows the load stays, while it falls the load
+ *           falls with it: a spring that kept its stretch would give back more than it was given.
+ * rolling   spring k_t R_e^2 across the normal that slides at mu_r R_e F, R_e = R_1 R_2/(R_1 + R_2).
+ */
+#ifndef LAW_CONTACT_H
+#define LAW_CONTACT_H
+
+#include <math.h>
+#include "@NAME@.h"
+
+/* 8 G/(2 - nu) of the law's material, Pa. */
+#define LAW_SHEAR @SHEAR@
+
+/* Effects beside the normal law; 0: there is none. damping: 2 sqrt(5/6) beta. */
+typedef struct {
+    double friction, rolling, damping;
+} law_effects;
+
+/* A spring that slides: what it carries (N or N m, on the first body) and how stiff it is. All 0: no contact. */
+typedef struct {
+    double load[3], stiffness;
+} law_slider;
+
+/* Two bodies that overlap, SI units. */
+typedef struct {
+    double normal[3];     /* from the second body to the first */
+    double velocity[3];   /* of the first centre relative to the second, or to the surface at the point of contact */
+    double spins[2][3];   /* angular velocities; of a surface: 0, its turning is in `velocity` */
+    double radii[2];      /* of a surface: 0 */
+    double mass;          /* effective */
+    double dt;
+} law_meeting;
+
+/* Force and moments on the bodies. */
+typedef struct {
+    double force[3];      /* on the first; the second gets the opposite */
+    double torque[2][3];
+    double normal_force;
+} law_push;
+
+static inline double law_dot(const double *a, const double *b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static inline void law_cross(const double *a, const double *b, double *c)
+{
+    c[0] = a[1] * b[2] - a[2] * b[1];
+    c[1] = a[2] * b[0] - a[0] * b[2];
+    c[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+/* 2 sqrt(5/6) beta of a nominal restitution e in (0, 1]. */
+static inline double law_dashpot(double restitution)
+{
+    const double log_e = log(restitution), pi = 3.14159265358979323846;
+    return 2.0 * sqrt(5.0 / 6.0) * -log_e / sqrt(pi * pi + log_e * log_e);
+}
+
+/* Advances a spring by `stretch` in the plane of `normal`, with the present stiffness, up to `limit`. */
+static inline void law_slide(law_slider *s, const double *stretch, const double *normal, double stiffness,
+                                double limit)
+{
+    const double held = law_dot(s->load, s->load), out = law_dot(s->load, normal);
+    double flat[3], flat_square, size;
+    double follow = 1.0;
+    int k;
+    for (k = 0; k < 3; k++) flat[k] = s->load[k] - out * normal[k];
+    flat_square = law_dot(flat, flat);
+    if (flat_square > 0.0) follow = sqrt(held / flat_square); /* the load is turned with the contact, not shortened */
+    if (stiffness < s->stiffness) follow *= stiffness / s->stiffness;
+    for (k = 0; k < 3; k++) s->load[k] = follow * flat[k] - stiffness * stretch[k];
+    size = law_dot(s->load, s->load);
+    if (size > limit * limit)
+        for (k = 0; k < 3; k++) s->load[k] *= limit / sqrt(size);
+    s->stiffness = stiffness;
+}
+
+/* Normal force of the law with damping; `approach` is the rate of the overlap. */
+static inline double law_damped(const law_effects *e, const law_pressed *p, double approach, double mass)
+{
+    double force = p->force;
+    if (force > 0.0 && e->damping > 0.0) {
+        force += e->damping * sqrt(mass * p->stiffness) * approach;
+        if (force < 0.0) force = 0.0;
+    }
+    return force;
+}
+
+/* Stiffness of the tangential spring, N/m. */
+static inline double law_shear(const law_pressed *p, double normal_force, int on_surface)
+{
+    return normal_force > 0.0 ? LAW_SHEAR / (on_surface ? 1.0 : 2.0) * p->contact_radius : 0.0;
+}
+
+/* Tangential force on the first body at the relative velocity `slip` of the touching points. */
+static inline void law_rub(const law_effects *e, const law_meeting *m, const double *slip, double stiffness,
+                              double normal_force, law_slider *spring, double *force)
+{
+    const double limit = e->friction * normal_force;
+    const double viscous = e->damping > 0.0 ? e->damping * sqrt(m->mass * stiffness) : 0.0;
+    double stretch[3], size;
+    int k;
+    for (k = 0; k < 3; k++) stretch[k] = slip[k] * m->dt;
+    law_slide(spring, stretch, m->normal, stiffness, limit);
+    for (k = 0; k < 3; k++) force[k] = spring->load[k] - viscous * slip[k];
+    size = law_dot(force, force);
+    if (size > limit * limit)
+        for (k = 0; k < 3; k++) force[k] *= limit / sqrt(size);
+}
+
+/* Velocity of the first body's touching point relative to the second's, in the plane of contact. */
+static inline void law_slip(const law_meeting *m, const double *arms, double *slip)
+{
+    const double away = law_dot(m->velocity, m->normal);
+    double turning[3], rolled[3];
+    int k;
+    for (k = 0; k < 3; k++) turning[k] = m->spins[0][k] * arms[0] + m->spins[1][k] * arms[1];
+    law_cross(turning, m->normal, rolled);
+    for (k = 0; k < 3; k++) slip[k] = m->velocity[k] - away * m->normal[k] - rolled[k];
+}
+
+/* Everything the contact does: `p` is the pressed law, `spring` and `roller` its springs. */
+static inline law_push law_meet(const law_effects *e, const law_meeting *m, const law_pressed *p,
+                                      law_slider *spring, law_slider *roller)
+{
+    const int on_surface = m->radii[1] <= 0.0;
+    const double arms[2] = {m->radii[0] - p->flattening[0], on_surface ? 0.0 : m->radii[1] - p->flattening[1]};
+    const double normal_force = law_damped(e, p, -law_dot(m->velocity, m->normal), m->mass);
+    const double stiffness = law_shear(p, normal_force, on_surface);
+    law_push push;
+    double slip[3], couple[3];
+    int k;
+    push.normal_force = normal_force;
+    for (k = 0; k < 3; k++) {
+        push.force[k] = 0.0;
+        push.torque[0][k] = push.torque[1][k] = 0.0;
+    }
+    if (e->friction > 0.0) {
+        law_slip(m, arms, slip);
+        law_rub(e, m, slip, stiffness, normal_force, spring, push.force);
+        law_cross(push.force, m->normal, couple);
+        for (k = 0; k < 3; k++) {
+            push.torque[0][k] = arms[0] * couple[k];
+            push.torque[1][k] = arms[1] * couple[k];
+        }
+    }
+    for (k = 0; k < 3; k++) push.force[k] += normal_force * m->normal[k];
+    if (e->rolling > 0.0) {
+        const double radius = on_surface ? m->radii[0] : m->radii[0] * m->radii[1] / (m->radii[0] + m->radii[1]);
+        double turn[3], along;
+        for (k = 0; k < 3; k++) turn[k] = (m->spins[0][k] - m->spins[1][k]) * m->dt;
+        along = law_dot(turn, m->normal);
+        for (k = 0; k < 3; k++) turn[k] -= along * m->normal[k];
+        law_slide(roller, turn, m->normal, stiffness * radius * radius, e->rolling * radius * normal_force);
+        for (k = 0; k < 3; k++) {
+            push.torque[0][k] += roller->load[k];
+            push.torque[1][k] -= roller->load[k];
+        }
+    }
+    return push;
+}
+
+#endif

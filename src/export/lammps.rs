@@ -1,0 +1,36 @@
+//! Target `lammps`: a pair style and a fix for walls as a plugin of a released LAMMPS.
+
+use super::Artifact;
+use super::contact::{filled, headers};
+use super::portable::Portable;
+
+const STYLE: &str = include_str!("lammps/style.h");
+const HISTORY: &str = include_str!("lammps/history.cpp");
+const PAIR: &str = include_str!("lammps/pair.cpp");
+const WALL: &str = include_str!("lammps/wall.cpp");
+const PLUGIN: &str = include_str!("lammps/plugin.cpp");
+const BUILD: &str = include_str!("lammps/build.sh");
+const IMPACT: &str = include_str!("lammps/impact.in");
+
+/// The files, in a folder `lammps`.
+#[must_use]
+pub fn export(law: &Portable) -> Vec<Artifact> {
+    let name = &law.identifier;
+    let mut files = headers(law, "lammps");
+    files.extend(
+        [
+            (format!("{name}_lammps.h"), STYLE),
+            (format!("{name}_history.cpp"), HISTORY),
+            (format!("{name}_pair.cpp"), PAIR),
+            (format!("{name}_wall.cpp"), WALL),
+            (format!("{name}_plugin.cpp"), PLUGIN),
+            ("build.sh".to_owned(), BUILD),
+            ("impact.in".to_owned(), IMPACT),
+        ]
+        .map(|(file, template)| Artifact {
+            name: format!("lammps/{file}"),
+            text: filled(template, law),
+        }),
+    );
+    files
+}
