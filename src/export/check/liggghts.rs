@@ -49,7 +49,28 @@ impl Installed {
         command.env("LD_PRELOAD", OsStr::new(&library));
         command
     }
+
+    /// The same on `ranks` processors.
+    #[must_use]
+    pub fn parallel_command(&self, law: &Portable, folder: &Path, ranks: usize) -> Command {
+        let library = folder.join(format!("lib{}_liggghts.so", law.identifier));
+        let mpirun = find_program(MPIRUN, "mpirun").unwrap_or_else(|| PathBuf::from("mpirun"));
+        let mut preload = std::ffi::OsString::from("LD_PRELOAD=");
+        preload.push(library);
+        let mut command = Command::new(mpirun);
+        // Open MPI refuses more processes than cores and the superuser unless told; containers have both.
+        command
+            .env("OMPI_ALLOW_RUN_AS_ROOT", "1")
+            .env("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1")
+            .args(["--oversubscribe", "-np", &ranks.to_string(), "env"])
+            .arg(preload)
+            .arg(&self.program);
+        command
+    }
 }
+
+/// Environment variable that names the `mpirun` of the program's MPI.
+pub const MPIRUN: &str = "IMPACTLAW_LIGGGHTS_MPIRUN";
 
 /// The exported models in the installed program.
 #[derive(Debug, Clone, Copy)]

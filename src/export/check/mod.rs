@@ -1,10 +1,10 @@
 //! Check: the exported law compiled and run in the codes that are installed, held against the law itself.
 
 mod c;
-mod native;
 mod impacts;
 pub mod lammps;
 pub mod liggghts;
+mod native;
 pub mod paths;
 mod process;
 

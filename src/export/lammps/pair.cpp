@@ -41,11 +41,14 @@ Pair@CLASS@::Pair@CLASS@(LAMMPS *lmp) : Pair(lmp), effects{0.0, 0.0, 0.0}, large
   finitecutflag = 1;
   no_virial_fdotr_compute = 1;
   centroidstressflag = CENTROID_NOTAVAIL;
+  nextra = 1;
+  pvector = new double[1];
 }
 
 Pair@CLASS@::~Pair@CLASS@()
 {
   if (copymode) return;
+  delete[] pvector;
   if (history) modify->delete_fix("law_history");
   if (allocated) {
     memory->destroy(setflag);
@@ -138,6 +141,7 @@ void Pair@CLASS@::compute(int eflag, int vflag)
   double **x = atom->x, **f = atom->f, **torque = atom->torque;
   const double *radius = atom->radius;
   const int nlocal = atom->nlocal, newton_pair = force->newton_pair;
+  pvector[0] = 0.0;
   for (int ii = 0; ii < list->inum; ii++) {
     const int i = list->ilist[ii];
     for (int jj = 0; jj < list->numneigh[i]; jj++) {
@@ -154,6 +158,8 @@ void Pair@CLASS@::compute(int eflag, int vflag)
       touching = 1;
       const bool i_first = atom->tag[i] < atom->tag[j];
       const law_push push = meet(i_first ? i : j, i_first ? j : i, sqrt(square), row);
+      // A pair across processors is seen by both of them without newton.
+      if (push.normal_force > 0.0) pvector[0] += newton_pair || j < nlocal ? 1.0 : 0.5;
       const double sign = i_first ? 1.0 : -1.0;
       const double *on_i = push.torque[i_first ? 0 : 1], *on_j = push.torque[i_first ? 1 : 0];
       for (int k = 0; k < 3; k++) {

@@ -2,6 +2,8 @@
 /* Styles of the law `@NAME@` for LAMMPS, loaded into a released program:  plugin load ./law_lammps.so
  *
  *   pair_style @NAME@ [friction MU] [rolling MU_R] [restitution E]      pair_coeff * *
+ *       compute ID all pair @NAME@: c_ID[1] is the number of pairs that carry force; pairs that have flattened and carry none
+ *       still overlap, so that compute contact/atom counts more
  *   fix ID GROUP @NAME@/wall PLANES [velocity PLANE VX VY VZ] [friction MU] [rolling MU_R] [restitution E]
  *       PLANES: any of  xlo X  xhi X  ylo Y  yhi Y  zlo Z  zhi Z ; the grains are on the inner side
  *       f_ID[k][1..3]: force on plane k in the order given; f_ID[k][4]: its position
