@@ -150,7 +150,49 @@ pub struct TheoryArgs {
 
 /// Arguments of `bed`.
 #[derive(Debug, Args)]
+#[command(
+    args_conflicts_with_subcommands = true,
+    subcommand_negates_reqs = true,
+    arg_required_else_help = true
+)]
 pub struct BedArgs {
+    /// Something else than running the scene here.
+    #[command(subcommand)]
+    pub verb: Option<BedVerb>,
+    /// The run.
+    #[command(flatten)]
+    pub run: Option<BedRunArgs>,
+}
+
+/// Verbs on a scene.
+#[derive(Debug, Subcommand)]
+pub enum BedVerb {
+    /// Write the packing, walls, piston, law and stages of a scene for LAMMPS or LIGGGHTS, which run it on many processors.
+    Export(BedExportArgs),
+}
+
+/// Arguments of `bed export`.
+#[derive(Debug, Args)]
+pub struct BedExportArgs {
+    /// Scene file.
+    pub scene: PathBuf,
+    /// Code to write for: `lammps` or `liggghts`.
+    #[arg(long)]
+    pub to: String,
+    /// Law file for the grains whose law the scene calls `fitted`.
+    #[arg(short, long)]
+    pub law: Option<PathBuf>,
+    /// Output folder (default: `out/<scene name>`); files go to a folder of the code's name in it.
+    #[arg(short, long)]
+    pub out: Option<PathBuf>,
+    /// Seed of the insertion, instead of the scene's.
+    #[arg(long)]
+    pub seed: Option<u64>,
+}
+
+/// Arguments of `bed` for a run.
+#[derive(Debug, Args)]
+pub struct BedRunArgs {
     /// Scene file.
     pub scene: PathBuf,
     /// Law file for the grains whose law the scene calls `fitted`.

@@ -34,6 +34,7 @@ pub mod normals;
 pub mod oedometer;
 pub mod outline;
 pub mod output;
+pub mod packing;
 pub mod page;
 mod patch;
 mod patches;

@@ -58,7 +58,7 @@ pub struct LawRun {
     pub summary: Summary,
     /// The bed at the largest strain, or at the end, for a picture.
     pub portrait: Portrait,
-    record: Record,
+    pub(super) record: Record,
 }
 
 /// A scene's run.
@@ -74,12 +74,12 @@ pub struct BedReport {
 }
 
 /// Where all laws start from.
-struct Start {
-    grains: Grains,
+pub(super) struct Start {
+    pub(super) grains: Grains,
     bodies: Option<Vec<BodyState>>,
     time: f64,
-    feed: Feed,
-    room: Room,
+    pub(super) feed: Feed,
+    pub(super) room: Room,
 }
 
 /// Runs a scene and writes its files; `given` is the law file beside the scene.
@@ -91,17 +91,8 @@ struct Start {
 /// another material, and [`crate::Error::Value`] when grains or bodies have no room or the time step is too large;
 /// then [`crate::Error::Bed`] when a bed cannot go on and [`crate::Error::File`] when a file cannot be written.
 pub fn run_scene(scene: &Scene, given: Option<&LawFile>, options: &Options) -> Result<BedReport> {
-    let (grains, feed, room) = insert(scene, options.seed.unwrap_or(scene.seed))?;
     let laws = laws(scene, given)?;
-    time_step::check(scene)?;
-    check_bodies(scene, &grains, &machine(scene, &room)?)?;
-    let mut start = Start {
-        grains,
-        bodies: None,
-        time: 0.0,
-        feed,
-        room,
-    };
+    let mut start = begin(scene, options)?;
     let prepares = scene.stages.iter().any(Stage::prepares);
     let packing = match prepares {
         true => Some(pack(scene, &mut start, options)?),
@@ -132,6 +123,20 @@ pub fn run_scene(scene: &Scene, given: Option<&LawFile>, options: &Options) -> R
         laws: runs,
         oedometer,
         picture,
+    })
+}
+
+/// The scene before its first step, grains and bodies checked.
+pub(super) fn begin(scene: &Scene, options: &Options) -> Result<Start> {
+    let (grains, feed, room) = insert(scene, options.seed.unwrap_or(scene.seed))?;
+    time_step::check(scene)?;
+    check_bodies(scene, &grains, &machine(scene, &room)?)?;
+    Ok(Start {
+        grains,
+        bodies: None,
+        time: 0.0,
+        feed,
+        room,
     })
 }
 
@@ -179,7 +184,7 @@ fn normals(scene: &Scene) -> NormalsOf {
 }
 
 /// Makes the packing with softened elastic contacts.
-fn pack(scene: &Scene, start: &mut Start, options: &Options) -> Result<LawRun> {
+pub(super) fn pack(scene: &Scene, start: &mut Start, options: &Options) -> Result<LawRun> {
     let began = Instant::now();
     let contact = scene.stages.iter().find_map(|stage| match stage {
         Stage::Settle { contact, .. } => Some(*contact),

@@ -1,11 +1,11 @@
 //! `bed`: a scene file to the files of its beds.
 
 use super::impact::interval;
-use super::{Context, Verdict, output_folder, print};
+use super::{Context, Verdict, bed_export, output_folder, print};
 use crate::bed::gauge::Finding;
 use crate::bed::run::{BedReport, Options, run_scene};
 use crate::bed::scene::{Scene, Stage};
-use crate::cli::BedArgs;
+use crate::cli::{BedArgs, BedRunArgs, BedVerb};
 use crate::law::LawFile;
 use crate::unit::{engineering, significant};
 use crate::{Error, Result};
@@ -17,11 +17,23 @@ use std::time::Duration;
 /// Largest energy imbalance over turnover a run may show.
 const CLOSURE: f64 = 0.01;
 
-/// Run the verb.
+/// Run the verb, or the one below it.
 ///
 /// # Errors
-/// Those of the scene and law files, of the output folder, and of [`run_scene`].
+/// Those of the scene and law files, of the output folder, of [`run_scene`] and of [`bed_export::run`].
 pub fn run(args: &BedArgs, context: &Context) -> Result<Verdict> {
+    match (&args.verb, &args.run) {
+        (Some(BedVerb::Export(args)), _) => bed_export::run(args, context),
+        (None, Some(args)) => run_here(args, context),
+        (None, None) => Err(Error::Argument {
+            argument: "SCENE".to_owned(),
+            found: "nothing".to_owned(),
+            allowed: "must name a scene file".to_owned(),
+        }),
+    }
+}
+
+fn run_here(args: &BedRunArgs, context: &Context) -> Result<Verdict> {
     let scene = Scene::read(&args.scene)?;
     let law = args.law.as_deref().map(LawFile::read).transpose()?;
     let interval = interval(&args.checkpoint)?;
@@ -73,7 +85,7 @@ pub fn rows_expected(scene: &Scene) -> u64 {
 }
 
 /// Runs `work` on a thread of the pool, so that its parallel loops need no change of threads.
-fn on_a_worker<T: Send>(work: impl FnOnce() -> Result<T> + Send) -> Result<T> {
+pub(super) fn on_a_worker<T: Send>(work: impl FnOnce() -> Result<T> + Send) -> Result<T> {
     let mut result = Err(Error::Bed {
         step: 0,
         reason: "the thread pool ended before the run".to_owned(),

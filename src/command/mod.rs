@@ -1,6 +1,7 @@
 //! Commands: what each verb of the command line does, from its input files to its output files.
 
 pub mod bed;
+pub mod bed_export;
 pub mod compare;
 pub mod cost;
 pub mod diagnostic;

@@ -13,6 +13,7 @@ pub mod liggghts;
 pub mod native;
 pub mod portable;
 pub mod reference;
+pub mod scene;
 pub mod table;
 
 use crate::{Error, Result};

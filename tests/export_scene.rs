@@ -1,0 +1,270 @@
+//! Whole scenes in LAMMPS and LIGGGHTS: an oedometer exported, run there, and held against the bed that runs here.
+
+mod codes;
+
+use codes::{assert_close, build, skipped, succeed};
+use impactlaw::export::check::{lammps, liggghts};
+use impactlaw::export::portable::Portable;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Allowed deviation: of stresses from the largest one (root mean square), of heights and contacts from ours.
+const ALLOWED: f64 = 0.03;
+
+fn program() -> Command {
+    Command::new(env!("CARGO_BIN_EXE_impactlaw"))
+}
+
+fn model() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("models/sac305-solder.toml")
+}
+
+/// The shipped oedometer under the fitted law alone, with rows close enough to follow unloading.
+fn scene(folder: &Path) -> PathBuf {
+    let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/bed-oedometer.toml");
+    let mut text = String::new();
+    for line in std::fs::read_to_string(case).unwrap().lines() {
+        text.push_str(match line {
+            _ if line.starts_with("laws =") => "laws = [\"fitted\"]",
+            _ if line.starts_with("rows =") => "rows = 600",
+            _ => line,
+        });
+        text.push('\n');
+    }
+    let text = text.replace(
+        "../models/sac305-solder.toml",
+        &model().display().to_string(),
+    );
+    let file = folder.join("oedometer.toml");
+    std::fs::write(&file, text).unwrap();
+    file
+}
+
+/// What is compared of one run.
+#[derive(Debug)]
+struct Curve {
+    /// Height and stress from the seating stress on, in order of time.
+    points: Vec<[f64; 2]>,
+    /// Height at the seating stress.
+    seated: f64,
+    /// Contacts between grains per grain at the largest strain.
+    coordination: f64,
+}
+
+impl Curve {
+    /// Index of the lowest height.
+    fn turn(&self) -> usize {
+        let heights = self.points.iter().enumerate();
+        heights.min_by(|a, b| a.1[0].total_cmp(&b.1[0])).unwrap().0
+    }
+
+    /// Stress at a travel of the piston from the turning point, on the way down or up.
+    fn stress(&self, travel: f64, down: bool) -> Option<f64> {
+        let turn = self.turn();
+        let lowest = self.points[turn][0];
+        let branch = if down {
+            &self.points[..=turn]
+        } else {
+            &self.points[turn..]
+        };
+        let height = lowest + travel;
+        branch.windows(2).find_map(|pair| {
+            let [a, b] = [pair[0], pair[1]];
+            let within = (a[0].min(b[0])..=a[0].max(b[0])).contains(&height) && a[0] != b[0];
+            within.then(|| a[1] + (b[1] - a[1]) * (height - a[0]) / (b[0] - a[0]))
+        })
+    }
+
+    fn largest(&self) -> f64 {
+        self.points
+            .iter()
+            .fold(0.0, |most, point| most.max(point[1]))
+    }
+}
+
+/// Columns of a CSV file by name, comments left out, with the first column as text.
+fn columns(file: &Path, names: &[&str]) -> Vec<Vec<f64>> {
+    let mut reader = csv::ReaderBuilder::new()
+        .comment(Some(b'#'))
+        .from_path(file)
+        .unwrap();
+    let header = reader.headers().unwrap().clone();
+    let at: Vec<usize> = names
+        .iter()
+        .map(|name| header.iter().position(|column| column == *name).unwrap())
+        .collect();
+    let rows = reader.records().map(|row| row.unwrap());
+    rows.map(|row| at.iter().map(|&k| row[k].parse().unwrap()).collect())
+        .collect()
+}
+
+fn curve(rows: &[Vec<f64>], coordination: impl Fn(usize) -> f64) -> Curve {
+    let first = rows.iter().position(|row| row[1] > 0.0).unwrap();
+    let points: Vec<[f64; 2]> = rows[first..].iter().map(|row| [row[0], row[2]]).collect();
+    let mut curve = Curve {
+        points,
+        seated: rows[first][0] / (1.0 - rows[first][1]),
+        coordination: 0.0,
+    };
+    curve.coordination = coordination(first + curve.turn());
+    curve
+}
+
+/// The scene run here.
+fn ours(scene: &Path, folder: &Path) -> Curve {
+    succeed(program().arg("bed").arg(scene).arg("-o").arg(folder));
+    let names = ["height_m", "strain", "stress_Pa", "coordination"];
+    let rows = columns(&folder.join("bed/fitted/bed.csv"), &names);
+    curve(&rows, |row| rows[row][3])
+}
+
+/// Exports the scene for a code; the folder it is in.
+fn exported(scene: &Path, folder: &Path, code: &str) -> PathBuf {
+    succeed(
+        program()
+            .args(["bed", "export"])
+            .arg(scene)
+            .args(["--to", code, "-o"])
+            .arg(folder),
+    );
+    folder.join(code)
+}
+
+fn assert_same(theirs: &Curve, ours: &Curve, code: &str) {
+    assert_close(
+        theirs.seated,
+        ours.seated,
+        ALLOWED,
+        &format!("{code}: height at the seating stress"),
+    );
+    assert_close(
+        theirs.coordination,
+        ours.coordination,
+        ALLOWED,
+        &format!("{code}: contacts per grain"),
+    );
+    assert_close(
+        theirs.largest(),
+        ours.largest(),
+        ALLOWED,
+        &format!("{code}: largest stress"),
+    );
+    let depth = theirs.seated - theirs.points[theirs.turn()][0];
+    for (down, from, to) in [(true, 0.0, 0.98), (false, 0.005, 0.05)] {
+        let travels = (0..200).map(|k| depth * (from + (to - from) * f64::from(k) / 199.0));
+        let pairs: Vec<[f64; 2]> = travels
+            .filter_map(|travel| Some([theirs.stress(travel, down)?, ours.stress(travel, down)?]))
+            .collect();
+        assert!(
+            pairs.len() > 150,
+            "{code}: {} points to compare",
+            pairs.len()
+        );
+        let sum: f64 = pairs.iter().map(|[a, b]| (a - b).powi(2)).sum();
+        let deviation = (sum / pairs.len() as f64).sqrt() / ours.largest();
+        println!(
+            "{code}, {}: {deviation:.4}",
+            if down { "compression" } else { "unloading" }
+        );
+        assert!(
+            deviation < ALLOWED,
+            "{code}: stress deviates by {deviation} of the largest"
+        );
+    }
+    println!(
+        "{code}: height {:.6e} {:.6e}, contacts per grain {:.3} {:.3}, largest stress {:.4e} {:.4e}",
+        theirs.seated,
+        ours.seated,
+        theirs.coordination,
+        ours.coordination,
+        theirs.largest(),
+        ours.largest()
+    );
+}
+
+#[test]
+fn an_oedometer_exported_to_lammps_is_the_one_that_runs_here() {
+    let installed = match lammps::Installed::find() {
+        Ok(installed) => installed,
+        Err(why) => return skipped("LAMMPS", &why),
+    };
+    let scratch = tempfile::tempdir().unwrap();
+    let scene = scene(scratch.path());
+    let folder = exported(&scene, scratch.path(), "lammps");
+    build(
+        &folder,
+        &[&installed.include, &installed.mpi.join("include")],
+    );
+    let mut command = Command::new(installed.mpi.join("bin/mpirun"));
+    command
+        .args(["-np", "2"])
+        .arg(&installed.program)
+        .current_dir(&folder);
+    succeed(command.args(["-in", "scene.in", "-var", "rows", "20"]));
+    let names = ["height_m", "strain", "stress_Pa", "coordination"];
+    let rows = columns(&folder.join("scene.csv"), &names);
+    let theirs = curve(&rows, |row| rows[row][3]);
+    assert_same(&theirs, &ours(&scene, scratch.path()), "LAMMPS");
+}
+
+#[test]
+fn an_oedometer_exported_to_liggghts_is_the_one_that_runs_here() {
+    let installed = match liggghts::Installed::find() {
+        Ok(installed) => installed,
+        Err(why) => return skipped("LIGGGHTS", &why),
+    };
+    let scratch = tempfile::tempdir().unwrap();
+    let scene = scene(scratch.path());
+    let folder = exported(&scene, scratch.path(), "liggghts");
+    build(&folder, &[&installed.source]);
+    let law = Portable::read(&model(), None).unwrap();
+    let mut command = installed.parallel_command(&law, &folder, 2);
+    command.current_dir(&folder);
+    succeed(command.args(["-in", "scene.in", "-var", "rows", "20"]));
+    let rows = columns(
+        &folder.join("scene.csv"),
+        &["height_m", "strain", "stress_Pa"],
+    );
+    let pairs = std::fs::read_to_string(folder.join("pairs_2_compress.txt")).unwrap();
+    let pairs = codes::rows(&pairs, 5);
+    let carrying = pairs
+        .iter()
+        .filter(|pair| pair[2..].iter().any(|force| *force != 0.0));
+    let coordination = 2.0 * carrying.count() as f64 / 800.0;
+    let theirs = curve(&rows, |_| coordination);
+    assert_same(&theirs, &ours(&scene, scratch.path()), "LIGGGHTS");
+}
+
+#[test]
+fn what_is_not_exported_is_refused_by_name_and_nothing_is_written() {
+    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
+    for (scene, key) in [("bed-drum.toml", "box"), ("bed-impact.toml", "body[0]")] {
+        let scratch = tempfile::tempdir().unwrap();
+        let out = scratch.path().join("out");
+        let mut command = program();
+        command
+            .args(["bed", "export"])
+            .arg(cases.join(scene))
+            .args(["--to", "lammps", "-o"])
+            .arg(&out);
+        let output = command.output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert!(said.contains(&format!("`{key}`")), "{scene}: {said}");
+        assert!(!out.exists());
+    }
+}
+
+#[test]
+fn a_code_that_is_not_known_is_refused_with_those_that_are() {
+    let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/bed-oedometer.toml");
+    let output = program()
+        .args(["bed", "export"])
+        .arg(case)
+        .args(["--to", "edem"])
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(said.contains("must be one of lammps, liggghts"), "{said}");
+}
