@@ -4,7 +4,7 @@
 //! and the rest of the bed is compiled once for all laws.
 
 use crate::contact::pair::{Press, Pressed};
-use crate::tape::{Keep, Tape};
+use crate::tape::Tape;
 use std::any::Any;
 
 /// Relative step back from the present overlap at which the unloading stiffness is read.
