@@ -22,8 +22,10 @@ pub struct Contacts<C: ContactLaw> {
     pub list: HalfList,
     /// What each pair remembers beside its normal history.
     pub memory: Vec<C::Memory>,
-    /// Push of each pair at the time of the positions, on its first grain.
+    /// Push of each pair at the time of the positions, on its first grain; zero while apart.
     pub pushes: Vec<Push>,
+    /// Whether each pair touched when it was last looked at.
+    pub(super) touching: Vec<bool>,
     pub(super) model: Box<dyn NormalModel>,
     /// Normal histories of each chunk of pairs.
     pub(super) histories: Vec<Box<dyn Histories>>,
@@ -33,11 +35,32 @@ pub struct Contacts<C: ContactLaw> {
     pub(super) spent: Losses,
 }
 
-/// A touching pair between finding and pushing it.
-#[derive(Clone, Copy, Default)]
+/// Pairs of one block that touch, in order, and those that have come apart since the step before.
 struct Found {
-    normal: Vector,
+    touching: [Near; BLOCK],
+    parted: [Near; BLOCK],
+    counts: [usize; 2],
+}
+
+/// A pair of a block between finding and pushing it.
+#[derive(Clone, Copy, Default)]
+struct Near {
+    /// From the second to the first centre, m.
+    line: Vector,
+    /// Squared distance of the centres, m2.
+    square: f64,
+    /// Sum of the radii, m.
+    reach: f64,
+    /// Index within the chunk.
     at: u32,
+}
+
+/// What the normal law is told of the touching pairs of a block, and what it answers.
+struct Pressing {
+    at: [u32; BLOCK],
+    squeezes: [Squeeze; BLOCK],
+    inverse_distances: [f64; BLOCK],
+    pressed: [Pressed; BLOCK],
 }
 
 /// One chunk of pairs, as one task sees it.
@@ -46,6 +69,7 @@ struct Chunk<'a, C: ContactLaw> {
     /// Image of each first grain; empty in an open room.
     images: &'a [u8],
     shifts: &'a [Vector; IMAGES],
+    touching: &'a mut [bool],
     memory: &'a mut [C::Memory],
     pushes: &'a mut [Push],
     histories: &'a mut dyn Histories,
@@ -57,20 +81,20 @@ struct Chunk<'a, C: ContactLaw> {
 fn meeting<C: ContactLaw>(
     grains: &Grains,
     [i, j]: [u32; 2],
-    overlap: f64,
+    squeeze: &Squeeze,
     normal: Vector,
+    inverse_distance: f64,
     dt: f64,
 ) -> Meeting {
     let (i, j) = (i as usize, j as usize);
     let (a, b) = (&grains.motions[i], &grains.motions[j]);
-    let radii = [grains.spheres[i].radius, grains.spheres[j].radius];
     Meeting {
-        overlap,
+        overlap: squeeze.overlap,
         normal,
         velocity: a.velocity - b.velocity,
         spins: [grains.spins[i].rate, grains.spins[j].rate],
-        radii,
-        inverse_distance: 1.0 / (radii[0] + radii[1] - overlap),
+        radii: squeeze.radii,
+        inverse_distance,
         mass: 1.0 / (a.inverse_mass + b.inverse_mass),
         dt,
         materials: if C::BY_MATERIAL {
@@ -83,79 +107,121 @@ fn meeting<C: ContactLaw>(
 
 impl<C: ContactLaw> Chunk<'_, C> {
     fn evaluate(&mut self, law: &C, grains: &Grains, dt: f64) {
-        let mut at = [0; BLOCK];
-        let mut found = [Found::default(); BLOCK];
-        let mut squeezes = [Squeeze::default(); BLOCK];
-        let mut pressed = [Pressed::default(); BLOCK];
+        let mut found = Found {
+            touching: [Near::default(); BLOCK],
+            parted: [Near::default(); BLOCK],
+            counts: [0; 2],
+        };
+        let mut pressing = Pressing {
+            at: [0; BLOCK],
+            squeezes: [Squeeze::default(); BLOCK],
+            inverse_distances: [0.0; BLOCK],
+            pressed: [Pressed::default(); BLOCK],
+        };
+        let mut losses = Losses::default();
         for first in (0..self.pairs.len()).step_by(BLOCK) {
-            let count = self.find(first, law, grains, dt, &mut found, &mut squeezes);
-            for (at, found) in at.iter_mut().zip(&found[..count]) {
-                *at = found.at;
-            }
-            self.histories
-                .press(&at[..count], &squeezes[..count], &mut pressed[..count]);
-            for ((found, squeeze), pressed) in found[..count].iter().zip(&squeezes).zip(&pressed) {
-                let at = found.at as usize;
-                let meeting =
-                    meeting::<C>(grains, self.pairs[at], squeeze.overlap, found.normal, dt);
-                let (push, losses) =
-                    law.push(&meeting, pressed, &self.pushes[at], &mut self.memory[at]);
+            self.find(first, grains, &mut found);
+            losses += self.part(law, grains, dt, &found.parted[..found.counts[1]]);
+            let touching = &found.touching[..found.counts[0]];
+            self.press(grains, touching, &mut pressing);
+            for (k, near) in touching.iter().enumerate() {
+                let at = near.at as usize;
+                let inverse = pressing.inverse_distances[k];
+                let meeting = meeting::<C>(
+                    grains,
+                    self.pairs[at],
+                    &pressing.squeezes[k],
+                    near.line * inverse,
+                    inverse,
+                    dt,
+                );
+                let (push, lost) = law.push(
+                    &meeting,
+                    &pressing.pressed[k],
+                    &self.pushes[at],
+                    &mut self.memory[at],
+                );
                 self.pushes[at] = push;
-                *self.losses += losses;
+                losses += lost;
             }
         }
+        *self.losses += losses;
     }
 
-    /// Finds the touching pairs of a block; settles the account of those that have come apart. Returns their number.
+    /// Sorts the pairs of a block, without a branch: whether a listed pair touches cannot be foreseen.
     #[inline(always)]
-    fn find(
-        &mut self,
-        first: usize,
-        law: &C,
-        grains: &Grains,
-        dt: f64,
-        found: &mut [Found; BLOCK],
-        squeezes: &mut [Squeeze; BLOCK],
-    ) -> usize {
-        let mut count = 0;
+    fn find(&mut self, first: usize, grains: &Grains, found: &mut Found) {
+        let [mut touching, mut parted] = [0; 2];
         let open = self.images.is_empty();
         let last = (first + BLOCK).min(self.pairs.len());
         for at in first..last {
-            let pair = self.pairs[at];
-            let (a, b) = (
-                &grains.spheres[pair[0] as usize],
-                &grains.spheres[pair[1] as usize],
-            );
+            let [a, b] = self.pairs[at].map(|grain| &grains.spheres[grain as usize]);
             let (mut line, reach) = (a.centre - b.centre, a.radius + b.radius);
             if !open {
                 line += self.shifts[self.images[at] as usize];
             }
             let square = line.length_squared();
-            if square < reach * reach {
-                let distance = square.sqrt();
-                found[count] = Found {
-                    normal: line * (1.0 / distance),
-                    at: at as u32,
-                };
-                squeezes[count] = Squeeze {
-                    overlap: reach - distance,
-                    radii: [a.radius, b.radius],
-                };
-                count += 1;
-            } else if self.pushes[at].touches() {
-                self.histories.forget(at);
-                let meeting = meeting::<C>(grains, pair, 0.0, line / square.sqrt(), dt);
-                let (push, losses) = law.push(
-                    &meeting,
-                    &Pressed::default(),
-                    &self.pushes[at],
-                    &mut self.memory[at],
-                );
-                self.pushes[at] = push;
-                *self.losses += losses;
-            }
+            let near = Near {
+                line,
+                square,
+                reach,
+                at: at as u32,
+            };
+            let touches = square < reach * reach;
+            found.touching[touching] = near;
+            touching += usize::from(touches);
+            found.parted[parted] = near;
+            parted += usize::from(!touches & self.touching[at]);
+            self.touching[at] = touches;
         }
-        count
+        found.counts = [touching, parted];
+    }
+
+    /// Settles the account of pairs that have come apart.
+    #[inline(always)]
+    fn part(&mut self, law: &C, grains: &Grains, dt: f64, parted: &[Near]) -> Losses {
+        let mut losses = Losses::default();
+        for near in parted {
+            let at = near.at as usize;
+            self.histories.forget(at);
+            let inverse = 1.0 / near.square.sqrt();
+            let pair = self.pairs[at];
+            let squeeze = Squeeze {
+                overlap: 0.0,
+                radii: pair.map(|grain| grains.spheres[grain as usize].radius),
+            };
+            let meeting = meeting::<C>(grains, pair, &squeeze, near.line * inverse, inverse, dt);
+            let (push, lost) = law.push(
+                &meeting,
+                &Pressed::default(),
+                &self.pushes[at],
+                &mut self.memory[at],
+            );
+            self.pushes[at] = push;
+            losses += lost;
+        }
+        losses
+    }
+
+    /// Calls the normal law for the touching pairs.
+    #[inline(always)]
+    fn press(&mut self, grains: &Grains, touching: &[Near], pressing: &mut Pressing) {
+        for (k, near) in touching.iter().enumerate() {
+            let distance = near.square.sqrt();
+            let [i, j] = self.pairs[near.at as usize];
+            pressing.at[k] = near.at;
+            pressing.inverse_distances[k] = 1.0 / distance;
+            pressing.squeezes[k] = Squeeze {
+                overlap: near.reach - distance,
+                radii: [i, j].map(|grain| grains.spheres[grain as usize].radius),
+            };
+        }
+        let count = touching.len();
+        self.histories.press(
+            &pressing.at[..count],
+            &pressing.squeezes[..count],
+            &mut pressing.pressed[..count],
+        );
     }
 }
 
@@ -170,6 +236,7 @@ impl<C: ContactLaw> Contacts<C> {
             },
             memory: Vec::new(),
             pushes: Vec::new(),
+            touching: Vec::new(),
             model,
             histories: Vec::new(),
             chunks: Vec::new(),
@@ -180,25 +247,28 @@ impl<C: ContactLaw> Contacts<C> {
     /// Evaluates the law for every pair.
     pub fn evaluate(&mut self, law: &C, grains: &Grains, dt: f64) {
         let (list, shifts) = (&self.list, &grains.room.shifts());
-        let chunk = |at: usize, memory, pushes, histories: &mut Box<dyn Histories>, losses| {
-            let all = at * CHUNK..((at + 1) * CHUNK).min(list.pairs.len());
-            let images = list.images.get(all.clone()).unwrap_or_default();
-            let pairs = &list.pairs[all];
-            let histories = &mut **histories;
-            Chunk::<C> {
-                pairs,
-                images,
-                shifts,
-                memory,
-                pushes,
-                histories,
-                losses,
-            }
-            .evaluate(law, grains, dt);
-        };
+        let chunk =
+            |at: usize, touching, memory, pushes, histories: &mut Box<dyn Histories>, losses| {
+                let all = at * CHUNK..((at + 1) * CHUNK).min(list.pairs.len());
+                let images = list.images.get(all.clone()).unwrap_or_default();
+                let pairs = &list.pairs[all];
+                let histories = &mut **histories;
+                Chunk::<C> {
+                    pairs,
+                    images,
+                    shifts,
+                    touching,
+                    memory,
+                    pushes,
+                    histories,
+                    losses,
+                }
+                .evaluate(law, grains, dt);
+            };
         if let [histories] = &mut self.histories[..] {
             chunk(
                 0,
+                &mut self.touching[..],
                 &mut self.memory[..],
                 &mut self.pushes[..],
                 histories,
@@ -206,15 +276,18 @@ impl<C: ContactLaw> Contacts<C> {
             );
             return;
         }
-        self.memory
+        self.touching
             .par_chunks_mut(CHUNK)
+            .zip(self.memory.par_chunks_mut(CHUNK))
             .zip(self.pushes.par_chunks_mut(CHUNK))
             .zip(self.histories.par_iter_mut())
             .zip(self.chunks.par_iter_mut())
             .enumerate()
-            .for_each(|(at, (((memory, pushes), histories), losses))| {
-                chunk(at, memory, pushes, histories, losses);
-            });
+            .for_each(
+                |(at, ((((touching, memory), pushes), histories), losses))| {
+                    chunk(at, touching, memory, pushes, histories, losses);
+                },
+            );
     }
 
     /// Whether one task does it all, so that other threads would only be waited for.
@@ -246,6 +319,7 @@ impl<C: ContactLaw> Contacts<C> {
             .iter()
             .map(|at| at.map_or_else(Push::default, |at| self.pushes[at]))
             .collect();
+        self.touching = self.pushes.iter().map(Push::touches).collect();
         let materials = |at: usize| list.pairs[at].map(|grain| grains.material(grain as usize));
         self.histories = self.model.chunks(&self.histories, &from, CHUNK, &materials);
         self.spent = self.losses();
@@ -261,26 +335,21 @@ impl<C: ContactLaw> Contacts<C> {
         sum
     }
 
-    /// Force and torque of all pairs on a grain, in the order of the list.
+    /// Force and torque of all pairs on a grain, in the order of the list. Pairs that are apart add their zeros: less
+    /// than a guess at which they are.
     #[inline(always)]
     #[must_use]
     pub fn load(&self, grain: usize) -> (Vector, Vector) {
         let (mut force, mut torque) = (Vector::ZERO, Vector::ZERO);
-        for index in self.list.first(grain) {
-            let push = &self.pushes[index];
-            if !push.touches() {
-                continue;
-            }
+        let row = self.list.first(grain);
+        for (push, memory) in self.pushes[row.clone()].iter().zip(&self.memory[row]) {
             force += push.force;
             if C::ROTATES {
-                torque += push.couple * push.arms[0] + C::moment(&self.memory[index]);
+                torque += push.couple * push.arms[0] + C::moment(memory);
             }
         }
         for &index in self.list.second(grain) {
             let push = &self.pushes[index as usize];
-            if !push.touches() {
-                continue;
-            }
             force -= push.force;
             if C::ROTATES {
                 torque += push.couple * push.arms[1] - C::moment(&self.memory[index as usize]);

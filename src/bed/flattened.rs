@@ -1,6 +1,6 @@
 //! Flattened: the sides of many contacts that are all of one law, its type hidden.
 
-use crate::contact::pair::{Side, contact_radius};
+use crate::contact::pair::Side;
 use crate::contact::{LawVisitor, NormalLaw};
 use crate::tape::{Keep, Tape};
 use std::any::Any;
@@ -72,10 +72,10 @@ impl<L: NormalLaw> Flattened for Sides<L> {
     }
 
     fn remember(&mut self, side: usize, flattening: f64, radius: f64) -> f64 {
-        let history = &mut self.histories[side];
-        let x = flattening / radius;
-        self.law.force(x, history);
-        contact_radius(&self.law, x, radius, history)
+        let state = self
+            .law
+            .state(flattening / radius, &mut self.histories[side]);
+        radius * state.contact_radius
     }
 
     fn forget(&mut self, side: usize) {

@@ -7,7 +7,7 @@ use crate::tape::Keep;
 use parry3d::math::Vector;
 use std::fmt::Debug;
 
-/// Spring that slides: the load it carries and the stiffness it has.
+/// Spring that slides: the load it carries and how soft it is.
 ///
 /// While the stiffness grows the load stays; while it falls the load falls with it. A spring that kept its stretch
 /// instead would return more energy than it was given (Elata and Berryman 1996).
@@ -15,8 +15,8 @@ use std::fmt::Debug;
 pub struct Slider {
     /// Force (N) or moment (N m) on the first body.
     pub load: Vector,
-    /// Stiffness, N/m or N m/rad; 0 while apart.
-    pub stiffness: f64,
+    /// Inverse stiffness, m/N or rad/(N m); 0 while apart, and then without load.
+    pub compliance: f64,
 }
 
 /// What a step of a [`Slider`] did to the energy, J.
@@ -33,11 +33,7 @@ impl Slider {
     #[inline(always)]
     #[must_use]
     pub fn energy(&self) -> f64 {
-        if self.stiffness > 0.0 {
-            0.5 * self.load.length_squared() / self.stiffness
-        } else {
-            0.0
-        }
+        0.5 * self.load.length_squared() * self.compliance
     }
 
     /// Advances by `stretch` (m or rad) in the plane of `normal`, with the present `stiffness`, up to `limit`.
@@ -51,17 +47,18 @@ impl Slider {
     ) -> Slide {
         let held = self.energy();
         let before = turned_into_plane(self.load, normal);
-        let softened = if stiffness < self.stiffness {
-            stiffness / self.stiffness
-        } else {
-            1.0
-        };
+        let softened = (stiffness * self.compliance).min(1.0);
         let mut load = before * softened - stretch * stiffness;
         let size = load.length_squared();
         if size > limit * limit {
             load *= limit / size.sqrt();
         }
-        *self = Slider { load, stiffness };
+        let compliance = if stiffness > 0.0 {
+            1.0 / stiffness
+        } else {
+            0.0
+        };
+        *self = Slider { load, compliance };
         let work = -0.5 * (before + load).dot(stretch);
         Slide {
             work,

@@ -39,9 +39,9 @@ pub struct Meeting {
     pub materials: [u8; 2],
 }
 
-/// What a contact does to its bodies.
+/// What a contact does to its bodies; one line of the cache.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[repr(C)]
+#[repr(C, align(64))]
 pub struct Push {
     /// Force on the first body, N.
     pub force: Vector,

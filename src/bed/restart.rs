@@ -20,7 +20,7 @@ use parry3d::math::{Pose, Rotation, Vector};
 keep_fields!(Vector: x, y, z);
 keep_fields!(Rotation: x, y, z, w);
 keep_fields!(Pose: rotation, translation);
-keep_fields!(Slider: load, stiffness);
+keep_fields!(Slider: load, compliance);
 keep_fields!(Sphere: centre, radius);
 keep_fields!(Motion: velocity, inverse_mass);
 keep_fields!(Spin: rate, inverse_inertia);
@@ -54,6 +54,7 @@ impl<C: ContactLaw> Keep for Contacts<C> {
         tape.load_few(&mut self.memory)?;
         self.pushes = vec![Push::default(); self.list.pairs.len()];
         tape.load_few(&mut self.pushes)?;
+        self.touching = self.pushes.iter().map(Push::touches).collect();
         let none = vec![None; self.list.pairs.len()];
         self.histories = self.model.chunks(&[], &none, PAIRS, &UNKNOWN);
         self.histories

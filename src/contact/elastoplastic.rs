@@ -1,11 +1,11 @@
 //! Fitted elastic-plastic law: a loading curve, unloading branches, and what the contact remembers.
 
-use super::NormalLaw;
 use super::admissible::Inadmissible;
 use super::inertia::Inertia;
 use super::loading::{Loading, SoftenedHertz};
 use super::spline::SplineLoading;
 use super::unloading::Unloading;
+use super::{NormalLaw, State};
 use crate::tape::keep_fields;
 
 /// Fitted law with its closed-form loading curve.
@@ -220,6 +220,53 @@ impl<L: Loading> NormalLaw for Elastoplastic<L> {
         let span = history.flattening - history.residual;
         let z = (x - history.residual) / span;
         history.force * history.exponent / span * z.powf(history.exponent - 1.0)
+    }
+
+    #[inline]
+    fn state(&self, x: f64, history: &mut Memory) -> State {
+        let contact_radius = x.max(0.0).sqrt();
+        if x >= history.flattening {
+            let (force, slope) = self.loading.force_and_slope(x / self.units.flattening);
+            let (force, stiffness) = (
+                self.units.force * force,
+                self.units.force / self.units.flattening * slope,
+            );
+            if x > history.flattening {
+                *history = Memory {
+                    flattening: x,
+                    force,
+                    residual: 0.0,
+                    exponent: 0.0,
+                };
+            }
+            return State {
+                force,
+                stiffness,
+                contact_radius,
+            };
+        }
+        *history = self.unloaded(history);
+        let past = x - history.residual;
+        if past <= 0.0 {
+            return State {
+                contact_radius,
+                ..State::default()
+            };
+        }
+        // Hertz too, as long as nothing has yielded: no residual, exponent 3/2
+        let inverse_span = 1.0 / (history.flattening - history.residual);
+        let z = past * inverse_span;
+        let power = if history.exponent == 1.5 {
+            z.sqrt()
+        } else {
+            z.powf(history.exponent - 1.0)
+        };
+        let secant = history.force * inverse_span * power;
+        State {
+            force: secant * past,
+            stiffness: secant * history.exponent,
+            contact_radius,
+        }
     }
 
     fn elastic_energy(&self, x: f64, history: &Memory) -> f64 {

@@ -16,6 +16,12 @@ pub trait Loading: Clone + Send + Sync + std::fmt::Debug + 'static {
     /// Slope $df/dw$.
     fn slope(&self, w: f64) -> f64;
 
+    /// Force and slope at once, for what they share.
+    #[inline]
+    fn force_and_slope(&self, w: f64) -> (f64, f64) {
+        (self.force(w), self.slope(w))
+    }
+
     /// Work $\int_0^w f\,dw$.
     fn work(&self, w: f64) -> f64;
 
@@ -140,6 +146,20 @@ impl Loading for SoftenedHertz {
             return 1.5 * w.sqrt();
         }
         self.exponent(w) * self.force(w) / w
+    }
+
+    #[inline]
+    fn force_and_slope(&self, w: f64) -> (f64, f64) {
+        let root = w.sqrt();
+        if w <= self.departure {
+            return (w * root, 1.5 * root);
+        }
+        let l = (w / self.departure).ln();
+        let (l2, b2) = (l * l, self.breadth * self.breadth);
+        let inverse = 1.0 / (b2 + l2);
+        let force = w * root * (-self.softening * l * l2 * inverse).exp();
+        let exponent = 1.5 - self.softening * l2 * (3.0 * b2 + l2) * inverse * inverse;
+        (force, exponent * force / w)
     }
 
     /// Gauss-Legendre quadrature with five nodes on panels that halve in $\sqrt w$; relative error below 1e-5 for

@@ -34,6 +34,20 @@ pub trait NormalLaw: Clone + Send + Sync + 'static {
     /// Tangent stiffness of the present branch, $d\varphi/dx$ (Pa), at `x` with `history` already updated.
     fn stiffness(&self, x: f64, history: &Self::History) -> f64;
 
+    /// Force, stiffness and contact radius at once, updating the history: what a contact needs each step. To be
+    /// overridden where the three share what is costly; the values must stay those of the three.
+    #[inline(always)]
+    fn state(&self, x: f64, history: &mut Self::History) -> State {
+        let force = self.force(x, history);
+        State {
+            force,
+            stiffness: self.stiffness(x, history),
+            contact_radius: self
+                .contact_radius(x, history)
+                .unwrap_or_else(|| x.max(0.0).sqrt()),
+        }
+    }
+
     /// Recoverable energy over $R^3$ (Pa): area under the unloading branch from `x` down to zero force.
     fn elastic_energy(&self, x: f64, history: &Self::History) -> f64;
 
@@ -53,6 +67,17 @@ pub trait NormalLaw: Clone + Send + Sync + 'static {
     fn inertia(&self) -> Inertia {
         Inertia::NONE
     }
+}
+
+/// State of a body pressed by a plane, over its radius.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct State {
+    /// Force $F/R^2$, Pa.
+    pub force: f64,
+    /// Stiffness $d\varphi/dx$, Pa.
+    pub stiffness: f64,
+    /// Contact radius $a/R$: what the law states, else that of a sphere cut by a plane, $a^2 = R\delta$.
+    pub contact_radius: f64,
 }
 
 /// Calls generic code with the concrete law behind a name: one `match`, outside every loop.

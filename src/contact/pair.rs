@@ -56,20 +56,6 @@ pub trait Press: Clone + Send + Sync + 'static {
     fn valid_to(&self) -> f64;
 }
 
-/// Contact radius (m) of a flattened side: what the law states, else that of a sphere cut by a plane, $a^2 = R\delta$.
-#[inline(always)]
-pub(crate) fn contact_radius<L: NormalLaw>(
-    law: &L,
-    x: f64,
-    radius: f64,
-    history: &L::History,
-) -> f64 {
-    radius
-        * law
-            .contact_radius(x, history)
-            .unwrap_or_else(|| x.max(0.0).sqrt())
-}
-
 /// A grain on a rigid surface; all flattening is the grain's.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Flat<L>(pub L);
@@ -80,12 +66,11 @@ impl<L: NormalLaw> Press for Flat<L> {
     #[inline(always)]
     fn press(&self, overlap: f64, radii: [f64; 2], history: &mut L::History) -> Pressed {
         let radius = radii[0];
-        let x = overlap / radius;
-        let force = radius * radius * self.0.force(x, history);
+        let state = self.0.state(overlap / radius, history);
         Pressed {
-            force,
-            stiffness: radius * self.0.stiffness(x, history),
-            contact_radius: contact_radius(&self.0, x, radius, history),
+            force: radius * radius * state.force,
+            stiffness: radius * state.stiffness,
+            contact_radius: radius * state.contact_radius,
             flattening: [overlap, 0.0],
         }
     }
@@ -127,12 +112,11 @@ impl<L: NormalLaw> Press for Twins<L> {
     fn press(&self, overlap: f64, radii: [f64; 2], history: &mut L::History) -> Pressed {
         let radius = radii[0];
         let half = 0.5 * overlap;
-        let x = half / radius;
-        let force = radius * radius * self.0.force(x, history);
+        let state = self.0.state(half / radius, history);
         Pressed {
-            force,
-            stiffness: 0.5 * radius * self.0.stiffness(x, history),
-            contact_radius: contact_radius(&self.0, x, radius, history),
+            force: radius * radius * state.force,
+            stiffness: 0.5 * radius * state.stiffness,
+            contact_radius: radius * state.contact_radius,
             flattening: [half, half],
         }
     }
@@ -177,12 +161,11 @@ impl<L: NormalLaw> Press for Alike<L> {
     fn press(&self, overlap: f64, radii: [f64; 2], history: &mut L::History) -> Pressed {
         let radius = radius_of_sides(radii);
         let half = 0.5 * overlap;
-        let x = half / radius;
-        let force = radius * radius * self.0.force(x, history);
+        let state = self.0.state(half / radius, history);
         Pressed {
-            force,
-            stiffness: 0.5 * radius * self.0.stiffness(x, history),
-            contact_radius: contact_radius(&self.0, x, radius, history),
+            force: radius * radius * state.force,
+            stiffness: 0.5 * radius * state.stiffness,
+            contact_radius: radius * state.contact_radius,
             flattening: [half, half],
         }
     }
@@ -355,6 +338,7 @@ impl<L: NormalLaw> Press for Series<L> {
         let first = self.balance(overlap, radii, sides);
         let a = self.side(first, radii[0], &sides.histories[0]);
         let b = self.side(overlap - first, radii[1], &sides.histories[1]);
+        let mut touched = a.history;
         *sides = Sides {
             histories: [a.history, b.history],
             share: first / overlap,
@@ -367,7 +351,7 @@ impl<L: NormalLaw> Press for Series<L> {
             } else {
                 0.0
             },
-            contact_radius: contact_radius(&self.0, first / radii[0], radii[0], &a.history),
+            contact_radius: radii[0] * self.0.state(first / radii[0], &mut touched).contact_radius,
             flattening: [first, overlap - first],
         }
     }

@@ -233,6 +233,16 @@ impl Loading for SplineLoading {
         self.piece(w).slope(s) / (2.0 * s)
     }
 
+    #[inline]
+    fn force_and_slope(&self, w: f64) -> (f64, f64) {
+        let s = w.sqrt();
+        if w <= self.starts[0] {
+            return (w * s, 1.5 * s);
+        }
+        let piece = self.piece(w);
+        (piece.force(s), piece.slope(s) / (2.0 * s))
+    }
+
     fn work(&self, w: f64) -> f64 {
         if w <= self.starts[0] {
             return 0.4 * w * hertz(w);

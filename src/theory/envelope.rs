@@ -138,7 +138,12 @@ impl<E: Envelope> NormalLaw for E {
         }
         let branch = self.unloading(peak.flattening, peak.force);
         let widest = self.loading_contact_radius(peak.flattening);
-        Some(widest * peak.position(x).powf(0.5 * branch.area_exponent))
+        let position = peak.position(x);
+        Some(if branch.area_exponent == 1.0 {
+            widest * position.sqrt()
+        } else {
+            widest * position.powf(0.5 * branch.area_exponent)
+        })
     }
 
     fn largest(&self, peak: &Peak) -> Option<f64> {

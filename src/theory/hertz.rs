@@ -1,6 +1,6 @@
 //! Hertz: the elastic sphere on a rigid plane.
 
-use crate::contact::NormalLaw;
+use crate::contact::{NormalLaw, State};
 use crate::material::Material;
 
 /// Elastic contact of a sphere with a rigid frictionless plane.
@@ -73,6 +73,17 @@ impl NormalLaw for Hertz {
 
     fn stiffness(&self, x: f64, _: &()) -> f64 {
         self.slope(x)
+    }
+
+    #[inline(always)]
+    fn state(&self, x: f64, _: &mut ()) -> State {
+        let x = x.max(0.0);
+        let root = x.sqrt();
+        State {
+            force: self.prefactor * x * root,
+            stiffness: 1.5 * self.prefactor * root,
+            contact_radius: root,
+        }
     }
 
     /// $\tfrac25 \varphi x$.
