@@ -1,85 +1,37 @@
-//! Speed of the bed: time of one step of 10 000 touching grains, by law and effects; elements are particle-steps.
+//! Speed of the bed: time of one step of 10 000 settled grains on one thread, by law and effects, and with the fitted law on
+//! all threads; elements are particle-steps.
 //!
-//! `BED_XYZR=file` measures a packing of your own instead of the lattice: lines of `x y z radius`, in metres, in a box
-//! from 0 to 46 mm.
+//! Fitted laws are the solder's of `models/`, its contacts softened until a grain's weight of the packing presses them as
+//! far as the packing is pressed: far past yield.
+
+mod packing;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use impactlaw::bed::damping::Viscous;
 use impactlaw::bed::friction::Mindlin;
-use impactlaw::bed::grains::Grains;
 use impactlaw::bed::law::{ContactLaw, Law};
-use impactlaw::bed::machine::Machine;
-use impactlaw::bed::neighbours::Cells;
 use impactlaw::bed::normals::Model;
-use impactlaw::bed::room::Room;
 use impactlaw::bed::step::{Bed, Normals, Parts};
 use impactlaw::bed::time_step::rayleigh_time;
-use impactlaw::contact::NormalLaw;
 use impactlaw::contact::pair::{Flat, Twins};
-use impactlaw::material::{Flow, Material, YIELD_PRESSURE_RATIO};
+use impactlaw::contact::{LawVisitor, NormalLaw};
+use impactlaw::law::LawFile;
+use impactlaw::law::file::Form;
+use impactlaw::material::YIELD_PRESSURE_RATIO;
 use impactlaw::theory::hertz::Hertz;
 use impactlaw::theory::thornton::Thornton;
-use parry3d::math::Vector;
-use std::time::Instant;
+use packing::{GRAVITY, MATERIAL, RADIUS};
+use std::path::Path;
+use std::time::{Duration, Instant};
 
-const RADIUS: f64 = 1e-3;
-const EDGE: f64 = 46e-3;
-const MATERIAL: Material = Material {
-    density: 2500.0,
-    young_modulus: 5e7,
-    poisson_ratio: 0.3,
-    flow: Some(Flow {
-        yield_strength: 1e6,
-        hardening_modulus: 0.0,
-    }),
-};
-
-/// Simple cubic lattice, pressed so that every grain touches its six neighbours.
-fn lattice() -> Grains {
-    let mut grains = Grains::default();
-    let spacing = EDGE / 23.0;
-    for index in 0..10_000 {
-        let place = [index % 23, index / 23 % 23, index / 529].map(|i| i as f64 + 0.5);
-        grains.add(
-            Vector::from(place) * spacing - Vector::Z * 1e-6 * place[2],
-            RADIUS,
-            MATERIAL.density,
-        );
-    }
-    for sphere in &mut grains.spheres {
-        sphere.radius *= 1.0005;
-    }
-    grains
-}
-
-fn packing() -> Grains {
-    let Ok(path) = std::env::var("BED_XYZR") else {
-        return lattice();
-    };
-    let text = std::fs::read_to_string(path).expect("BED_XYZR must name a readable file");
-    let mut grains = Grains::default();
-    for line in text.lines() {
-        let [x, y, z, radius] = line
-            .split_whitespace()
-            .filter_map(|w| w.parse().ok())
-            .collect::<Vec<f64>>()[..]
-        else {
-            continue;
-        };
-        grains.add(Vector::new(x, y, z), radius, MATERIAL.density);
-    }
-    grains
-}
+/// Steps before measuring: springs are wound up and a layer of plastic contacts is made.
+const WARM_UP: usize = 1000;
 
 fn bed<C: ContactLaw, L: NormalLaw>(effects: C, law: &L) -> Bed<C> {
-    let room = Room::open_box(EDGE, EDGE, 80e-3, 4e-3);
-    let gravity = Vector::new(0.0, 0.0, -9.81);
-    let mut grains = packing();
-    grains.reorder(&Cells::new(&grains.spheres, 2.0 * RADIUS).order());
     let parts = Parts {
-        grains,
-        machine: Machine::new(room.bodies(), gravity, RADIUS).expect("a box of blocks is sound"),
-        gravity,
+        grains: packing::packing(1),
+        machine: packing::walls(1),
+        gravity: GRAVITY,
         dt: 0.2 * rayleigh_time(&MATERIAL, RADIUS),
         skin: 0.2 * RADIUS,
     };
@@ -88,70 +40,97 @@ fn bed<C: ContactLaw, L: NormalLaw>(effects: C, law: &L) -> Bed<C> {
         wall: Box::new(Model(Flat(law.clone()))),
     };
     let mut bed = Bed::new(effects, normals, parts);
-    for _ in 0..300 {
+    for _ in 0..WARM_UP {
         bed.step().expect("the packing is at rest");
     }
     bed
 }
 
-fn measure<C: ContactLaw, L: NormalLaw>(
-    criterion: &mut Criterion,
-    name: &str,
+/// Measures a bed of any law.
+struct Measure<'a, C> {
+    criterion: &'a mut Criterion,
+    name: &'a str,
     effects: C,
-    law: &L,
-) {
-    let mut group = criterion.benchmark_group("bed step");
-    let mut bed = bed(effects, law);
-    group.throughput(Throughput::Elements(bed.grains.len() as u64));
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(1)
-        .build()
-        .expect("one thread starts");
-    group.bench_function(name, |bencher| {
-        bencher.iter_custom(|steps| {
-            pool.install(|| {
-                let began = Instant::now();
-                for _ in 0..steps {
-                    bed.step().expect("the packing is at rest");
-                }
-                began.elapsed()
-            })
+    threads: usize,
+}
+
+impl<C: ContactLaw> LawVisitor for Measure<'_, C> {
+    type Output = ();
+
+    fn visit<L: NormalLaw>(self, law: &L) {
+        let mut group = self.criterion.benchmark_group("bed step");
+        group
+            .sample_size(20)
+            .warm_up_time(Duration::from_millis(500))
+            .measurement_time(Duration::from_secs(2));
+        let mut bed = bed(self.effects, law);
+        group.throughput(Throughput::Elements(bed.grains.len() as u64));
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(self.threads)
+            .build()
+            .expect("threads start");
+        group.bench_function(self.name, |bencher| {
+            bencher.iter_custom(|steps| {
+                pool.install(|| {
+                    let began = Instant::now();
+                    for _ in 0..steps {
+                        bed.step().expect("the packing is at rest");
+                    }
+                    began.elapsed()
+                })
+            });
         });
-    });
-    group.finish();
+        group.finish();
+    }
 }
 
 fn steps(criterion: &mut Criterion) {
-    let (hertz, yielding) = (
-        Hertz::of(&MATERIAL),
-        Thornton::of(&MATERIAL, YIELD_PRESSURE_RATIO).expect("it yields"),
-    );
+    let hertz = Hertz::of(&MATERIAL);
+    let thornton = Thornton::of(&MATERIAL, YIELD_PRESSURE_RATIO).expect("it yields");
     let (damping, friction) = (Viscous::new(0.8), Mindlin::new(&MATERIAL, 0.5));
-    measure(criterion, "hertz", Law::new((), (), ()), &hertz);
-    measure(
-        criterion,
-        "hertz, damping",
-        Law::new(damping, (), ()),
-        &hertz,
-    );
-    measure(
-        criterion,
-        "hertz, Mindlin",
-        Law::new((), friction, ()),
-        &hertz,
-    );
-    measure(
-        criterion,
-        "hertz, damping, Mindlin",
-        Law::new(damping, friction, ()),
-        &hertz,
-    );
-    measure(
-        criterion,
-        "thornton, damping, Mindlin",
-        Law::new(damping, friction, ()),
-        &yielding,
-    );
+    let all = Law::new(damping, friction, ());
+    for (name, threads) in [
+        ("hertz, damping, Mindlin", 1),
+        ("hertz, damping, Mindlin, 2 threads", 2),
+    ] {
+        let effects = all.clone();
+        let measure = Measure {
+            criterion: &mut *criterion,
+            name,
+            effects,
+            threads,
+        };
+        measure.visit(&hertz);
+    }
+    let measure = Measure {
+        criterion: &mut *criterion,
+        name: "thornton, damping, Mindlin",
+        effects: all,
+        threads: 1,
+    };
+    measure.visit(&thornton);
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("models/sac305-solder.toml");
+    let solder = LawFile::read(&file).expect("a law of the repository");
+    let material = solder.material();
+    let mut softened = Law::new((), Mindlin::new(&material, 0.5), ());
+    softened.soften(MATERIAL.young_modulus / material.young_modulus);
+    for (name, form, threads) in [
+        ("fitted (closed form), Mindlin", Form::ClosedForm, 1),
+        (
+            "fitted (closed form), Mindlin, 2 threads",
+            Form::ClosedForm,
+            2,
+        ),
+        ("fitted (spline), Mindlin", Form::Spline, 1),
+    ] {
+        let law = solder.law_in(form).expect("the file has both forms");
+        law.visit(Measure {
+            criterion: &mut *criterion,
+            name,
+            effects: softened.clone(),
+            threads,
+        });
+    }
 }
 
 criterion_group!(benches, steps);

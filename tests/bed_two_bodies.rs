@@ -2,7 +2,7 @@
 
 use impactlaw::bed::bodies::{Body, Freedom, Mobility, Solid};
 use impactlaw::bed::damping::Viscous;
-use impactlaw::bed::friction::Mindlin;
+use impactlaw::bed::friction::{Mindlin, RollingSpring};
 use impactlaw::bed::grains::Grains;
 use impactlaw::bed::law::{ContactLaw, Law};
 use impactlaw::bed::machine::Machine;
@@ -14,6 +14,7 @@ use impactlaw::contact::rebound::rebound;
 use impactlaw::material::{Flow, Material};
 use impactlaw::theory::hertz::Hertz;
 use parry3d::math::{Rotation, Vector};
+use std::f64::consts::PI;
 
 const RADIUS: f64 = 250e-6;
 const MATERIAL: Material = Material {
@@ -57,6 +58,37 @@ impl NormalLaw for Straight {
 
     fn contact_radius(&self, _: f64, _: &f64) -> Option<f64> {
         None
+    }
+
+    fn valid_to(&self) -> f64 {
+        f64::INFINITY
+    }
+}
+
+/// Contact radius over R of a [`Constant`] law.
+const CONSTANT_RADIUS: f64 = 0.002;
+
+/// A law whose contacts have one radius.
+#[derive(Debug, Clone)]
+struct Constant<L>(L);
+
+impl<L: NormalLaw> NormalLaw for Constant<L> {
+    type History = L::History;
+
+    fn force(&self, x: f64, history: &mut L::History) -> f64 {
+        self.0.force(x, history)
+    }
+
+    fn stiffness(&self, x: f64, history: &L::History) -> f64 {
+        self.0.stiffness(x, history)
+    }
+
+    fn elastic_energy(&self, x: f64, history: &L::History) -> f64 {
+        self.0.elastic_energy(x, history)
+    }
+
+    fn contact_radius(&self, _: f64, _: &L::History) -> Option<f64> {
+        Some(CONSTANT_RADIUS)
     }
 
     fn valid_to(&self) -> f64 {
@@ -350,6 +382,77 @@ fn oblique_rebounds_keep_spin_about_the_contact_lose_energy_and_recoil_at_medium
         recoiled,
         "Maw, Barber and Fawcett: the contact point must swing back at some angle"
     );
+}
+
+#[test]
+fn a_grain_that_sticks_to_linear_springs_turns_back_as_their_periods_say() {
+    // both springs linear: the slip swings as cos(w t), w^2 = 7 k_t / 2 m, while the contact lasts half a period of
+    // sqrt(k_n / m), so that e_t = -cos(pi sqrt(7 k_t / 2 k_n)) (Schaefer, Dippel and Wolf 1996, without friction's limit)
+    let law = Straight {
+        loading: 1e9,
+        unloading: 1e9,
+    };
+    let normal = 1e9 * RADIUS;
+    let shear = MATERIAL.young_modulus / (2.0 * (1.0 + MATERIAL.poisson_ratio));
+    let constant = Constant(law);
+    let tangential = 8.0 * shear / (2.0 - MATERIAL.poisson_ratio) * CONSTANT_RADIUS * RADIUS;
+    let effects = Law::new((), Mindlin::new(&MATERIAL, 1e9), ());
+    let mut grains = Grains::default();
+    let place = Vector::new(0.0, 0.0, RADIUS * (1.0 + 1e-12));
+    grains.add(place, RADIUS, MATERIAL.density);
+    let (v_t, v_n) = (1e-5, 1e-5);
+    grains.motions[0].velocity = Vector::new(v_t, 0.0, -v_n);
+    let time = rebound(&law, RADIUS, MATERIAL.sphere_mass(RADIUS), v_n).contact_time;
+    let dt = time / 20_000.0;
+    let floor = floor(Mobility::Fixed);
+    let mut bed = bed(effects, Twins(law), Flat(constant), grains, floor, dt);
+    collide(&mut bed);
+    let slip = bed.grains.motions[0].velocity.x - RADIUS * bed.grains.spins[0].rate.y;
+    let closed_form = (PI * (3.5 * tangential / normal).sqrt()).cos();
+    assert!(
+        (slip / v_t - closed_form).abs() < 1e-3,
+        "{} against {closed_form}",
+        slip / v_t
+    );
+}
+
+#[test]
+fn resting_grains_rest() {
+    let soft = Material {
+        young_modulus: 5e7,
+        ..MATERIAL
+    };
+    let mut grains = Grains::default();
+    let beside = RADIUS / 3f64.sqrt();
+    for (x, y, z) in [
+        (2.0 * beside, 0.0, RADIUS),
+        (-beside, RADIUS, RADIUS),
+        (-beside, -RADIUS, RADIUS),
+        (0.0, 0.0, RADIUS * (1.0 + (8.0f64 / 3.0).sqrt())),
+    ] {
+        grains.add(Vector::new(x, y, z), RADIUS, soft.density);
+    }
+    let law = Hertz::of(&soft);
+    let effects = Law::new(
+        Viscous::new(0.5),
+        Mindlin::new(&soft, 0.5),
+        RollingSpring::new(&soft, 0.1),
+    );
+    let machine = floor(Mobility::Fixed);
+    let mut bed = bed(effects, Twins(law), Flat(law), grains, machine, 1e-5);
+    bed.gravity = Vector::new(0.0, 0.0, -9.81);
+    let mut run = |steps| {
+        for _ in 0..steps {
+            bed.step().unwrap();
+        }
+        bed.grains.spheres.clone()
+    };
+    let settled = run(30_000);
+    let later = run(100_000);
+    for (a, b) in settled.iter().zip(&later) {
+        let drift = (a.centre - b.centre).length();
+        assert!(drift < 1e-9 * RADIUS, "{} R in 1 s", drift / RADIUS);
+    }
 }
 
 #[test]

@@ -70,8 +70,14 @@ impl Slider {
 /// The vector laid into the plane of `normal`, its length kept: how a spring follows a contact that turns.
 #[inline(always)]
 fn turned_into_plane(vector: Vector, normal: Vector) -> Vector {
-    let flat = vector - normal * vector.dot(normal);
-    let (length, flat_length) = (vector.length_squared(), flat.length_squared());
+    let across = vector.dot(normal);
+    let flat = vector - normal * across;
+    let (length, lost) = (vector.length_squared(), across * across);
+    if lost < 1e-5 * length {
+        let part = lost / length;
+        return flat * (1.0 + part * (0.5 + 0.375 * part));
+    }
+    let flat_length = flat.length_squared();
     if flat_length > 0.0 {
         flat * (length / flat_length).sqrt()
     } else {

@@ -1,0 +1,137 @@
+//! A run that other codes can repeat: the shared packing is shaken and comes to rest, walls being of the grains' material.
+//!
+//!     cargo bench --bench peers -- [--write DIR] [--steps N] [--across N] [--threads N]
+//!
+//! prints rows of step, kinetic energy (J), contacts per grain, mean and largest height (m), then the particle-steps a
+//! second, and peak memory where the system tells. `--write` writes the packing for LAMMPS and LIGGGHTS instead.
+//! `benches/peers.sh` runs all of them and compares.
+
+mod packing;
+
+use impactlaw::bed::damping::Viscous;
+use impactlaw::bed::friction::Mindlin;
+use impactlaw::bed::grains::Grains;
+use impactlaw::bed::law::Law;
+use impactlaw::bed::normals::Model;
+use impactlaw::bed::step::{Bed, Normals, Parts};
+use impactlaw::contact::pair::{Flat, Twins};
+use impactlaw::theory::hertz::Hertz;
+use packing::{GRAVITY, MATERIAL, RADIUS};
+use parry3d::math::Vector;
+use std::fmt::Write;
+use std::path::Path;
+use std::time::Instant;
+
+const DT: f64 = 1e-5;
+/// Steps between rows.
+const ROW: usize = 250;
+/// Largest component of the velocities a grain is shaken with, m/s.
+const SHAKE: f64 = 0.1;
+
+fn argument(name: &str) -> Option<String> {
+    let mut arguments = std::env::args().skip_while(|argument| argument != name);
+    arguments.nth(1)
+}
+
+fn number(name: &str, otherwise: usize) -> usize {
+    argument(name).map_or(otherwise, |text| text.parse().expect("a whole number"))
+}
+
+/// The packing with every grain moving, none faster than the shake.
+fn shaken(across: usize) -> Grains {
+    let mut grains = packing::packing(across);
+    for (index, motion) in grains.motions.iter_mut().enumerate() {
+        let part = |salt: usize| ((index * 7919 + salt * 104_729) % 1000) as f64 / 500.0 - 1.0;
+        motion.velocity = Vector::new(part(1), part(2), part(3)) * SHAKE;
+    }
+    grains
+}
+
+/// `packing.data`, which LAMMPS (`atom_style sphere`) and LIGGGHTS (`granular`) read.
+fn write(folder: &Path, grains: &Grains) -> std::io::Result<()> {
+    let mut text = format!(
+        "shaken packing\n\n{} atoms\n2 atom types\n\n0 0.046 xlo xhi\n0 0.046 ylo yhi\n0 0.12 zlo zhi\n\nAtoms\n\n",
+        grains.len()
+    );
+    for (at, sphere) in grains.spheres.iter().enumerate() {
+        let (c, diameter) = (sphere.centre, 2.0 * sphere.radius);
+        let row = format!("{} 1 {diameter} {} ", at + 1, MATERIAL.density);
+        writeln!(text, "{row}{:.13} {:.13} {:.13}", c.x, c.y, c.z).expect("a string takes it");
+    }
+    text.push_str("\nVelocities\n\n");
+    for (at, motion) in grains.motions.iter().enumerate() {
+        let v = motion.velocity;
+        writeln!(text, "{} {} {} {} 0 0 0", at + 1, v.x, v.y, v.z).expect("a string takes it");
+    }
+    std::fs::write(folder.join("packing.data"), text)
+}
+
+fn bed(across: usize) -> Bed<Law<Viscous, Mindlin, ()>> {
+    let parts = Parts {
+        grains: shaken(across),
+        machine: packing::walls(across),
+        gravity: GRAVITY,
+        dt: DT,
+        skin: 0.2 * RADIUS,
+    };
+    // a wall of the grains' material: 1/E* = 2 (1 - nu^2)/E
+    let wall = Hertz::new(0.5 * MATERIAL.contact_modulus());
+    let normals = Normals {
+        pair: Box::new(Model(Twins(Hertz::of(&MATERIAL)))),
+        wall: Box::new(Model(Flat(wall))),
+    };
+    let friction = Mindlin::between([Some(&MATERIAL); 2], 0.5);
+    Bed::new(Law::new(Viscous::new(0.8), friction, ()), normals, parts)
+}
+
+/// Peak memory of this process in bytes, where /proc tells.
+fn peak_memory() -> Option<f64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find(|line| line.starts_with("VmHWM"))?;
+    let kilobytes: f64 = line.split_whitespace().nth(1)?.parse().ok()?;
+    Some(1024.0 * kilobytes)
+}
+
+fn run(across: usize, steps: usize) {
+    let mut bed = bed(across);
+    let grains = bed.grains.len() as f64;
+    let mut spent = 0.0;
+    println!("step,kinetic_J,contacts_per_grain,mean_height_m,top_m");
+    for step in 0..=steps {
+        if step % ROW == 0 || step == steps {
+            bed.evaluate().expect("it stays in its box");
+            let heights = bed.grains.spheres.iter().map(|sphere| sphere.centre.z);
+            let mean = heights.clone().sum::<f64>() / grains;
+            let top = heights.fold(0.0, f64::max);
+            println!(
+                "{step},{:.6e},{:.5},{mean:.9},{top:.9}",
+                bed.energies().kinetic,
+                bed.packing().coordination
+            );
+        }
+        let began = Instant::now();
+        bed.step().expect("it stays in its box");
+        spent += began.elapsed().as_secs_f64();
+    }
+    let rate = grains * (steps + 1) as f64 / spent;
+    println!("# {grains} grains: {rate:.3e} particle-steps/s of wall time");
+    if let Some(bytes) = peak_memory() {
+        println!(
+            "# {:.0} MB at most, {:.0} bytes a grain",
+            bytes / 1e6,
+            bytes / grains
+        );
+    }
+}
+
+fn main() {
+    if let Some(folder) = argument("--write") {
+        write(Path::new(&folder), &shaken(1)).expect("the folder can be written to");
+        return;
+    }
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(number("--threads", 1))
+        .build()
+        .expect("threads start");
+    pool.install(|| run(number("--across", 1), number("--steps", 4000)));
+}
