@@ -102,7 +102,7 @@ fn the_order_of_tables_does_not_change_a_bit() {
     let other = run(&text(&[6, 5, 3, 4, 2, 0, 1]));
     assert!(only(&one).rows.len() > 10);
     assert_eq!(only(&one).rows, only(&other).rows);
-    assert_eq!(only(&one).portrait.grains, only(&other).portrait.grains);
+    assert_eq!(only(&one).grains, only(&other).grains);
 }
 
 #[test]
@@ -165,13 +165,7 @@ fn no_grain_leaves_a_closed_box_at_fifty_metres_a_second() {
         run.summary.energy_closure
     );
     let inside = |z: f64| (0.0..=40e-3).contains(&z);
-    assert!(
-        run.portrait
-            .grains
-            .spheres
-            .iter()
-            .all(|s| inside(s.centre.z))
-    );
+    assert!(run.grains.spheres.iter().all(|s| inside(s.centre.z)));
 }
 
 #[test]
@@ -183,7 +177,7 @@ fn a_grain_that_leaves_is_counted_reported_and_still_listed() {
     let report = run_in(folder.path(), &text).unwrap();
     let run = only(&report);
     assert!(run.summary.lost_grains > 5, "{}", run.summary.lost_grains);
-    assert_eq!(run.portrait.grains.len(), 60);
+    assert_eq!(run.grains.len(), 60);
     assert!(run.summary.warnings[0].contains("outside the room"));
     let grains =
         std::fs::read_to_string(folder.path().join("bed/hertz/vtp/grains_0003.vtp")).unwrap();

@@ -56,6 +56,8 @@ pub struct LawRun {
     pub rows: Vec<Row>,
     /// Figures.
     pub summary: Summary,
+    /// Grains at the end.
+    pub grains: Grains,
     /// The bed at the largest strain, or at the end, for a picture.
     pub portrait: Portrait,
     pub(super) record: Record,
@@ -308,6 +310,7 @@ fn finish(
         law: name.to_owned(),
         rows: run.rows,
         summary,
+        grains: run.bed.grains().clone(),
         portrait: cast.at(&run.deepest.unwrap_or_else(now)),
         record,
     })
