@@ -52,14 +52,14 @@ pub fn filled(template: &str, law: &Portable) -> String {
 }
 
 /// $8 G/(2 - \nu)$ of the law's material, Pa: stiffness of Mindlin's spring over the contact radius, one side.
-fn shear(law: &Portable) -> f64 {
+pub(super) fn shear(law: &Portable) -> f64 {
     let material = law.material();
     let modulus = material.young_modulus / (2.0 * (1.0 + material.poisson_ratio));
     8.0 * modulus / (2.0 - material.poisson_ratio)
 }
 
 /// The identifier as a name of a class.
-fn class(identifier: &str) -> String {
+pub(super) fn class(identifier: &str) -> String {
     identifier
         .split('_')
         .flat_map(|word| {

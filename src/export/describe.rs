@@ -9,8 +9,9 @@ use std::fmt::Write;
 const CONVENTIONS: &str = "\
 Units: SI (m, kg, s, N, Pa). Overlap > 0 in contact, force > 0 repels, rate > 0 approaches.
 Convention: the law is that of one body on a rigid plane, F = R^2 phi(delta/R). The modulus is that of the body alone,
-E* = E/(1 - nu^2), and the radius its own: no effective radius, no mixing. A wall is rigid; two bodies are two
-flattenings in series, delta = delta_1 + delta_2, F_1 = F_2; equal bodies take delta/2 each.
+E* = E/(1 - nu^2), and the radius its own: no effective modulus, no mixing. A wall is rigid. Two bodies of this material:
+each flattens by delta/2 like a sphere of radius 2 R1 R2/(R1 + R2) on a plane (equal bodies: F(delta/2) at R), which is
+Hertz's pair for any radii while elastic.
 History of each side of a contact: its largest flattening x_max = delta_max/R (what else is kept follows from it). Virgin: 0.
 Loading: the curve, for delta beyond delta_max. Below it: the unloading branch of delta_max, for reloading too. No tension.
 Reset: to 0 when the bodies no longer overlap. Zero force at overlap > 0 (an impression) keeps the history.

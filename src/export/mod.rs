@@ -6,10 +6,12 @@
 pub mod c;
 pub mod check;
 pub mod contact;
+pub mod deme;
 pub mod describe;
 pub mod kernel;
 pub mod lammps;
 pub mod liggghts;
+pub mod mercurydpm;
 pub mod native;
 pub mod portable;
 pub mod reference;
@@ -41,16 +43,22 @@ pub enum Target {
     Table,
     /// [`native`].
     Native,
+    /// [`deme`].
+    Deme,
+    /// [`mercurydpm`].
+    MercuryDpm,
 }
 
 impl Target {
     /// Every target, in the order of messages.
-    pub const ALL: [Target; 5] = [
+    pub const ALL: [Target; 7] = [
         Target::C,
         Target::Liggghts,
         Target::Lammps,
         Target::Table,
         Target::Native,
+        Target::Deme,
+        Target::MercuryDpm,
     ];
 
     /// Name on the command line.
@@ -62,6 +70,8 @@ impl Target {
             Target::Lammps => "lammps",
             Target::Table => "table",
             Target::Native => "native",
+            Target::Deme => "deme",
+            Target::MercuryDpm => "mercurydpm",
         }
     }
 
@@ -76,6 +86,8 @@ impl Target {
             Target::Lammps => lammps::export(law),
             Target::Table => table::export(law),
             Target::Native => native::files(law)?,
+            Target::Deme => deme::export(law),
+            Target::MercuryDpm => mercurydpm::export(law),
         })
     }
 }

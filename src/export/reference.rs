@@ -1,10 +1,9 @@
 //! Reference impacts of a law: figures and a trajectory that every dialect has to give again.
 
-use crate::contact::inertia::Inertia;
-use crate::contact::pair::{Press, Series, Sides};
 use crate::contact::rebound::{Rebound, State, rebound, trajectory};
 use crate::contact::{LawVisitor, NormalLaw};
 use crate::law::{FittedLaw, LawFile};
+use crate::unit::significant;
 
 /// Points of the trajectory.
 const POINTS: usize = 12;
@@ -65,11 +64,7 @@ impl LawVisitor for Maker<'_> {
                 radii: [radius, radius],
                 mass: 0.5 * mass,
                 velocity: 2.0 * velocity,
-                figures: Rebound {
-                    max_displacement: 2.0 * figures.max_displacement,
-                    residual_displacement: 2.0 * figures.residual_displacement,
-                    ..figures
-                },
+                figures: doubled(figures),
             });
             impacts.push(Impact {
                 radii: [radius, 0.0],
@@ -90,30 +85,35 @@ impl LawVisitor for Maker<'_> {
 /// The fastest, the middle (on a logarithmic axis) and the slowest speed of the law's range.
 fn speeds(file: &LawFile) -> Vec<f64> {
     let (slow, fast) = (file.valid.velocity_min_m_s, file.valid.velocity_max_m_s);
-    let mut speeds = vec![fast, (slow * fast).sqrt(), slow];
+    let middle = (slow * fast).sqrt();
+    let middle = significant(middle, 3).parse().unwrap_or(middle);
+    let mut speeds = vec![fast, middle, slow];
     speeds.dedup();
     speeds
 }
 
-/// Impact of a sphere on a smaller one.
+/// Impact of a sphere on a smaller one: each side takes half the overlap like a sphere of radius $2 R_e$ on a plane, as
+/// in [`crate::contact::pair::Alike`].
 fn unequal<L: NormalLaw>(law: &L, file: &LawFile, velocity: f64) -> Impact {
     let radius = file.provenance.radius_m;
     let radii = [radius, SMALLER * radius];
     let masses = radii.map(|radius| file.material().sphere_mass(radius));
     let mass = masses[0] * masses[1] / (masses[0] + masses[1]);
+    let side = 2.0 * radii[0] * radii[1] / (radii[0] + radii[1]);
     Impact {
         radii,
         mass,
         velocity,
-        figures: rebound(
-            &Pair {
-                law: Series(law.clone()),
-                radii,
-            },
-            1.0,
-            mass,
-            velocity,
-        ),
+        figures: doubled(rebound(law, side, 2.0 * mass, 0.5 * velocity)),
+    }
+}
+
+/// Figures of two bodies from those of one on a wall: the overlap is twice the flattening.
+fn doubled(figures: Rebound) -> Rebound {
+    Rebound {
+        max_displacement: 2.0 * figures.max_displacement,
+        residual_displacement: 2.0 * figures.residual_displacement,
+        ..figures
     }
 }
 
@@ -129,41 +129,4 @@ fn thinned(states: &[State]) -> Vec<Point> {
             force: state.force,
         })
         .collect()
-}
-
-/// Two bodies in series as one law of the overlap, for a radius of 1 m.
-#[derive(Clone)]
-struct Pair<L> {
-    law: Series<L>,
-    radii: [f64; 2],
-}
-
-impl<L: NormalLaw> NormalLaw for Pair<L> {
-    type History = Sides<L::History>;
-
-    fn force(&self, overlap: f64, history: &mut Self::History) -> f64 {
-        self.law.press(overlap, self.radii, history).force
-    }
-
-    fn stiffness(&self, overlap: f64, history: &Self::History) -> f64 {
-        self.law
-            .press(overlap, self.radii, &mut history.clone())
-            .stiffness
-    }
-
-    fn elastic_energy(&self, overlap: f64, history: &Self::History) -> f64 {
-        self.law.elastic_energy(overlap, self.radii, history)
-    }
-
-    fn contact_radius(&self, _overlap: f64, _history: &Self::History) -> Option<f64> {
-        None
-    }
-
-    fn valid_to(&self) -> f64 {
-        f64::INFINITY
-    }
-
-    fn inertia(&self) -> Inertia {
-        Inertia::NONE
-    }
 }

@@ -50,7 +50,7 @@ LAW_FUNCTION double law_reduced(double x, law_side *side, double *slope)
     return side->phi_max * (power * z);
 }
 
-/* Recoverable energy (J) of one side at a flattening (m): the area under its unloading branch. */
+/* Recoverable energy (J) of one body on a wall at a flattening (m): the area under its unloading branch. */
 LAW_FUNCTION double law_elastic_energy(double flattening, double radius, const law_side *side)
 {
     law_side branch = *side;

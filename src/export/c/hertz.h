@@ -7,7 +7,7 @@ LAW_FUNCTION double law_reduced(double x, law_side *side, double *slope)
     return x > 0.0 ? LAW_PREFACTOR * x * root : 0.0;
 }
 
-/* Recoverable energy (J) of one side at a flattening (m). */
+/* Recoverable energy (J) of one body on a wall at a flattening (m). */
 LAW_FUNCTION double law_elastic_energy(double flattening, double radius, const law_side *side)
 {
     law_side branch = *side;

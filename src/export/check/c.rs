@@ -2,7 +2,7 @@
 
 use super::paths::{self, Bodies};
 use super::process::{Ran, find_program, run};
-use super::{Agreement, Check, Finding};
+use super::{Agreement, Check, Finding, largest};
 use crate::contact::pair::Pressed;
 use crate::export::portable::Portable;
 use crate::export::{c, kernel};
@@ -107,41 +107,42 @@ fn along_paths(driver: &Path, law: &Portable, bodies: Bodies, name: &str) -> Res
     let ran = run(&mut Command::new(driver), &input(radii, &path))?.or_fail("run", driver)?;
     let theirs = rows(&ran, driver)?;
     let deviation = match theirs.len() == ours.len() {
-        true => ours
-            .iter()
-            .zip(&theirs)
-            .map(|(ours, theirs)| farthest(ours, theirs))
-            .fold(0.0, f64::max),
+        true => largest(
+            ours.iter()
+                .zip(&theirs)
+                .map(|(ours, theirs)| farthest(ours, theirs)),
+        ),
         false => f64::NAN,
     };
     Ok(Agreement {
         subject: format!(
-            "random paths, {name}, {STEPS} steps: force, stiffness, radius, flattening"
+            "random paths, {name}, {STEPS} steps: force, stiffness, radius, flattening, energy"
         ),
         deviation,
         allowed: PATH_ALLOWED,
     })
 }
 
-/// Largest relative deviation of the five numbers of a step; infinite where one of them is not a number.
-fn farthest(ours: &Pressed, theirs: &[f64; 5]) -> f64 {
+/// Largest relative deviation of the six numbers of a step.
+fn farthest((ours, energy): &(Pressed, f64), theirs: &[f64; 6]) -> f64 {
     let [a, b] = ours.flattening;
-    let ours = [ours.force, ours.stiffness, ours.contact_radius, a, b];
-    ours.iter()
-        .zip(theirs)
-        .map(|(ours, theirs)| {
-            let off = (theirs - ours).abs();
-            match (off == 0.0, off.is_nan()) {
-                (true, _) => 0.0,
-                (_, true) => f64::INFINITY,
-                _ => off / ours.abs(),
-            }
-        })
-        .fold(0.0, f64::max)
+    let ours = [
+        ours.force,
+        ours.stiffness,
+        ours.contact_radius,
+        a,
+        b,
+        *energy,
+    ];
+    let off = |(ours, theirs): (&f64, &f64)| match theirs == ours {
+        true => 0.0,
+        false => (theirs - ours).abs() / ours.abs(),
+    };
+    largest(ours.iter().zip(theirs).map(off))
 }
 
-fn rows(ran: &Ran, driver: &Path) -> Result<Vec<[f64; 5]>> {
-    let row = |line: &str| -> Option<[f64; 5]> {
+fn rows(ran: &Ran, driver: &Path) -> Result<Vec<[f64; 6]>> {
+    let row = |line: &str| -> Option<[f64; 6]> {
         let numbers: Vec<f64> = line
             .split_whitespace()
             .map_while(|word| word.parse().ok())
@@ -197,12 +198,7 @@ fn cost(driver: &Path, law: &Portable) -> Result<Agreement> {
     let mut ours = f64::INFINITY;
     for _ in 0..PASSES {
         let start = Instant::now();
-        black_box(paths::pressed(
-            &law.core,
-            Bodies::Wall,
-            radius,
-            black_box(&path),
-        ));
+        black_box(paths::sum(&law.core, radius, black_box(&path)));
         ours = ours.min(start.elapsed().as_secs_f64() / path.len() as f64);
     }
     Ok(Agreement {

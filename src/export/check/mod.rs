@@ -7,10 +7,12 @@ pub mod liggghts;
 mod native;
 pub mod paths;
 mod process;
+mod shim;
 
 pub use c::CompilerCheck;
 pub use native::NativeCheck;
 pub use process::{Ran, find_program, run};
+pub use shim::ShimCheck;
 
 use super::native::Code;
 use super::portable::Portable;
@@ -76,7 +78,22 @@ pub fn all() -> Vec<Box<dyn Check>> {
         Box::new(NativeCheck(Code::Yade)),
         Box::new(liggghts::LiggghtsCheck),
         Box::new(lammps::LammpsCheck),
+        Box::new(ShimCheck::Deme),
+        Box::new(ShimCheck::MercuryDpm),
     ]
+}
+
+/// Largest of some deviations; NaN if one of them is, so that nothing undefined passes for agreement.
+#[must_use]
+pub fn largest(deviations: impl IntoIterator<Item = f64>) -> f64 {
+    let larger = |most: f64, next: f64| {
+        if next.is_nan() || next > most {
+            next
+        } else {
+            most
+        }
+    };
+    deviations.into_iter().fold(0.0, larger)
 }
 
 /// The findings as text: a table of the comparisons, and what was skipped and why.

@@ -8,7 +8,9 @@ use crate::contact::NormalLaw;
 ///
 /// One body: $F/R^2 = \kappa_1 x^n$, $k_1 = \kappa_1 R^{2-n}$ on a wall. Both branches are powers of $\delta^n$, so e is the
 /// same at every speed. Source: Morrissey 2013 (thesis, Edinburgh), eqs. for $k_{adh} = 0$, $f_0 = 0$, as in
-/// `normal_model_edinburgh_stiffness.h` of LIGGGHTS 3.8 with `fixKc on`.
+/// `normal_model_edinburgh_stiffness.h` of LIGGGHTS 3.8 with `fixKc on`. That code takes the largest overlap back once the
+/// force is zero, by the ratio of the linear springs: with $n < 1$ the force would come back and throw the body out faster,
+/// so projections keep $n \ge 1$.
 ///
 /// ```
 /// use impactlaw::{contact::NormalLaw, export::native::eepa::Eepa};

@@ -7,10 +7,12 @@ pub mod eepa;
 mod fit;
 mod lines;
 pub mod mdr;
+mod summary;
 pub mod thornton_ning;
 
 pub use fit::{Target, target};
-pub use lines::{Code, Lines, files, input, of as lines_of};
+pub use lines::{Code, Lines, input, of as lines_of};
+pub use summary::files;
 
 use super::portable::Portable;
 use crate::contact::rebound::{Rebound, rebound};
@@ -150,9 +152,9 @@ pub fn project(law: &Portable, target: &Target) -> Result<Vec<Projection>> {
     let eepa = |n: &[f64]| Eepa {
         loading: n[0],
         ratio: 1.0 + n[1],
-        exponent: n[2],
+        exponent: 1.0 + n[2],
     };
-    let curved = fit::project(target, &[stiffness, ratio, 1.1], eepa)?;
+    let curved = fit::project(target, &[stiffness, ratio, 0.1], eepa)?;
     let ning = |n: &[f64]| ThorntonNing {
         modulus: n[0],
         yield_ratio: n[1],

@@ -1,0 +1,39 @@
+//! Target `mercurydpm`: species and interaction for the kernel of MercuryDPM.
+//!
+//! Proved through a shim only (`check/mercury_shim.cpp`): the code is not in a package registry.
+
+use super::portable::Portable;
+use super::{Artifact, c, contact, kernel};
+
+const INTERACTION: &str = include_str!("c/mercury_interaction.h");
+const SPECIES: &str = include_str!("c/mercury_species.h");
+
+/// The law's header, the interaction and the species, in the folders of MercuryDPM where they belong.
+#[must_use]
+pub fn export(law: &Portable) -> Vec<Artifact> {
+    let header = format!("{}.h", law.identifier);
+    let class = contact::class(&law.identifier);
+    let filled = |template: &str| named(template, law).replace("@FILE@", &header);
+    let interactions = "mercurydpm/Kernel/Interactions/NormalForceInteractions";
+    let species = "mercurydpm/Kernel/Species/NormalForceSpecies";
+    vec![
+        Artifact {
+            name: format!("{interactions}/{header}"),
+            text: c::header(law),
+        },
+        Artifact {
+            name: format!("{interactions}/{class}Interaction.h"),
+            text: filled(INTERACTION),
+        },
+        Artifact {
+            name: format!("{species}/{class}NormalSpecies.h"),
+            text: filled(SPECIES),
+        },
+    ]
+}
+
+/// `template` with the names of the law's functions and classes.
+#[must_use]
+pub fn named(template: &str, law: &Portable) -> String {
+    kernel::named(template, law).replace("@CLASS@", &contact::class(&law.identifier))
+}
