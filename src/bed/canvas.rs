@@ -2,7 +2,7 @@
 
 use super::colours::{DECADES, colour};
 use super::lettering;
-use crate::unit::significant;
+use crate::unit::engineering;
 use std::time::Duration;
 
 /// Colour of words and lines.
@@ -68,7 +68,7 @@ impl Canvas {
             let value = most * 10f64.powf(decade as f64 - DECADES);
             let x = left + (part * (length - 1) as f64) as usize;
             (16..21).for_each(|down| self.dot(x, y + down, INK));
-            self.write(&format!("{} {unit}", significant(value, 2)), [x, y + 24], 2);
+            self.write(&engineering(value, unit, 2), [x, y + 24], 2);
         }
         self.write(words, [x, y + 46], 2);
     }

@@ -75,6 +75,7 @@ const LETTERS: &[(char, [u8; 5])] = &[
     ('x', [0x44, 0x28, 0x10, 0x28, 0x44]),
     ('y', [0x1c, 0xa0, 0xa0, 0xa0, 0x7c]),
     ('z', [0x44, 0x64, 0x54, 0x4c, 0x44]),
+    ('µ', [0xfc, 0x40, 0x40, 0x20, 0x7c]),
 ];
 
 /// Columns from one letter to the next.
@@ -109,7 +110,7 @@ mod tests {
     fn every_law_and_number_can_be_written() {
         let names = Theory::ALL.map(Theory::name).join("");
         for letter in format!(
-            "{names}fitted0123456789.-+_:=(),/%abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+            "{names}fitted0123456789.-+_:=(),/%abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZµ"
         )
         .chars()
         {

@@ -8,7 +8,7 @@ use super::portrait::{Cast, Portrait};
 use super::render::{Sight, draw};
 use crate::Result;
 use crate::files::write_atomic;
-use crate::unit::significant;
+use crate::unit::engineering;
 use parry3d::math::Vector;
 use std::path::Path;
 use std::time::Duration;
@@ -84,11 +84,11 @@ pub fn write_animation(
                 let left = index * MOVING[0];
                 canvas.put(pixels, MOVING[0], [left, MARGINS[0]]);
                 let middle = [left + MOVING[0] / 2, MARGINS[0] + MOVING[1] + 8];
-                canvas.scale(words, most, unit, middle, MOVING[0] * 3 / 5);
+                canvas.scale(words, most, unit, middle, MOVING[0] * 4 / 5);
             }
-            let time = significant(1e3 * frame.time, 3);
+            let time = engineering(frame.time, "s", 3);
             canvas.write(
-                &format!("{name} {} {time} ms", frame.stage),
+                &format!("{name} {} {time}", frame.stage),
                 [width / 2, 14],
                 2,
             );

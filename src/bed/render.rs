@@ -187,9 +187,11 @@ impl Stage<'_> {
                 // nothing behind: the last wall closes the view
                 Some(&(distance, normal)) => {
                     let wall = self.lit(&ray, distance, normal, usize::MAX - 1);
+                    // pale whichever way it faces: shadows show, sides do not compete with grains
+                    let shade = 0.8 + 0.2 * wall.own.min(1.0);
                     Seen {
                         own: 0.0,
-                        rest: [0, 1, 2].map(|c| WALL[c] * wall.own + wall.rest[c]),
+                        rest: WALL.map(|c| c * shade),
                         ..wall
                     }
                 }

@@ -204,7 +204,7 @@
       gl.uniform1f(at.plain, 0);
       gl.uniform1f(at.nearer, 0);
       gl.uniform3fv(at.tint, opaque ? [0.55, 0.63, 0.72] : ink.map((c) => 0.5 * c + 0.25));
-      gl.uniform2f(at.glass, opaque ? 1 : 0.07, opaque ? 0 : 0.16);
+      gl.uniform2f(at.glass, opaque ? 1 : 0.045, opaque ? 0 : 0.12);
       gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, body.triangles);
       gl.drawElements(gl.TRIANGLES, body.faces, gl.UNSIGNED_INT, 0);
       gl.uniform1f(at.plain, 1);
