@@ -190,8 +190,10 @@ fn it_does_not_matter_where_the_sides_are() {
 #[test]
 fn falling_through_a_side_books_the_work_of_gravity() {
     let gravity = Vector::new(3.0, 0.0, 0.0);
-    let mut grains = Grains::default();
-    grains.room = Periodic::new(Vector::ZERO, [Some(8.0 * RADIUS), None, None]).unwrap();
+    let mut grains = Grains {
+        room: Periodic::new(Vector::ZERO, [Some(8.0 * RADIUS), None, None]).unwrap(),
+        ..Grains::default()
+    };
     grains.add(
         Vector::new(4.0, 0.0, 0.0) * RADIUS,
         RADIUS,
@@ -213,8 +215,10 @@ fn falling_through_a_side_books_the_work_of_gravity() {
 #[test]
 fn a_period_in_which_grains_would_meet_twice_is_refused() {
     let grains = |edge: f64| {
-        let mut grains = Grains::default();
-        grains.room = Periodic::new(Vector::ZERO, [None, Some(edge), None]).unwrap();
+        let mut grains = Grains {
+            room: Periodic::new(Vector::ZERO, [None, Some(edge), None]).unwrap(),
+            ..Grains::default()
+        };
         grains.add(Vector::ZERO, RADIUS, MATERIAL.density);
         grains
     };
