@@ -24,6 +24,19 @@ pub enum Layout {
     Lattice(f64),
 }
 
+impl Layout {
+    /// Length of a grid of cells of size `cell` that covers `length`: of a lattice a whole number of cells, so that the ratio of
+    /// cell to spacing is the one asked for; a fitted grid is scaled to end with the body.
+    #[must_use]
+    pub fn covering(&self, length: f64, cell: f64) -> f64 {
+        match self {
+            Layout::Fitted => length,
+            // a cell that is full but for rounding is full
+            Layout::Lattice(_) => cell * (length / cell - 1e-9).ceil(),
+        }
+    }
+}
+
 /// Configuration that gradients refer to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Reference {

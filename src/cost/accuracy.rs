@@ -12,7 +12,9 @@ use std::fmt::Write;
 pub const TARGET: f64 = 0.01;
 
 /// Order of convergence below which nothing is extrapolated.
-const LEAST_ORDER: f64 = 0.25;
+const LEAST_ORDER: f64 = 0.5;
+/// Error of the finest run above which nothing is extrapolated.
+const MOST_ERROR: f64 = 0.2;
 
 /// A ladder of cell sizes, and what it would cost to reach [`TARGET`].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,7 +26,7 @@ pub struct Reach {
     /// Order p of the error in the cell size, by least squares over the ladder.
     pub order: f64,
     /// Processor time at [`TARGET`], s: of the cheapest run within it, or extrapolated from the finest by the orders of error
-    /// and time; `None` where the error does not fall.
+    /// and time; `None` where the error does not fall, or is far from it still.
     pub target_s: Option<f64>,
     /// Whether a run came within [`TARGET`].
     pub reached: bool,
@@ -54,7 +56,7 @@ impl Reach {
         let growth = -slope(&|r| r.2);
         let within = runs.iter().filter(|r| r.1 <= TARGET).map(|r| r.2);
         let cheapest = within.min_by(f64::total_cmp);
-        let further = (order >= LEAST_ORDER)
+        let further = (order >= LEAST_ORDER && finest.1 <= MOST_ERROR)
             .then(|| finest.2 * (finest.1 / TARGET).max(1.0).powf(growth / order));
         Some(Reach {
             seconds: finest.2,
@@ -146,7 +148,7 @@ pub fn markdown(lines: &[Line]) -> String {
         let target = match (l.lattice_reached, l.lattice_target_s) {
             (Some(true), Some(s)) => rounded(s, 2),
             (Some(false), Some(s)) => format!("not reached; about {}", rounded(s, 2)),
-            (Some(false), None) => "not reached; does not converge".to_owned(),
+            (Some(false), None) => "not reached, not near".to_owned(),
             _ => String::new(),
         };
         let _ = writeln!(

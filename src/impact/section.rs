@@ -25,10 +25,13 @@ impl<const P: usize> Section<P> {
         Section { r, z, home }
     }
 
-    /// Uniform cells of about `size` over a width and a height.
+    /// Uniform cells of `size` over at least a width and a height.
     #[must_use]
     pub fn uniform(size: f64, (width, height): (f64, f64)) -> Self {
-        let breaks = |length| graded(length, size, length, 1.0, size);
+        let breaks = |length: f64| {
+            let length = size * (length / size - 1e-9).ceil();
+            graded(length, size, length, 1.0, size)
+        };
         Section::new(breaks(width), breaks(height))
     }
 

@@ -41,8 +41,11 @@ keep_fields!(impl [S: Space, M: Constitutive<S>, W: Wall<S>, const N: usize] Mod
 pub type AxisymmetricModel<M, const N: usize> = Model<Axisymmetric, M, Contact<Axisymmetric, N>, N>;
 
 /// The grid of a plan over the unit sphere.
-fn section<const P: usize>(grid: &Grid) -> Section<P> {
-    let breaks = |length, to| graded(length, grid.fine, to, grid.growth, grid.coarse);
+fn section<const P: usize>(grid: &Grid, layout: Layout) -> Section<P> {
+    let breaks = |length, to| {
+        let length = layout.covering(length, grid.fine);
+        graded(length, grid.fine, to, grid.growth, grid.coarse)
+    };
     Section::new(breaks(1.0, grid.fine_width), breaks(2.0, grid.fine_depth))
 }
 
@@ -54,7 +57,7 @@ pub fn build<M: Constitutive<Axisymmetric>, const P: usize, const N: usize>(
     contact_tolerance: f64,
 ) -> AxisymmetricModel<M, N> {
     const { assert!(N == (P + 1) * (P + 1)) };
-    let mut section = section::<P>(grid);
+    let mut section = section::<P>(grid, layout);
     let columns = section.r.cells();
     let fitted = |c: usize| {
         let (r, z) = (section.r.cell(c % columns), section.z.cell(c / columns));
@@ -236,7 +239,7 @@ mod tests {
     fn uniform_compression_stores_the_closed_form_energy() {
         // u_z = -0.1 z: uniaxial strain with J = 0.9 everywhere; Greville coefficients make it exactly
         let mut m = model();
-        let section = section::<2>(&grid());
+        let section = section::<2>(&grid(), Layout::Fitted);
         let mut u = vec![[0.0; 2]; m.mass.len()];
         for j in 0..section.z.functions() {
             for i in 0..section.r.functions() {

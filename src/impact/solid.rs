@@ -76,7 +76,7 @@ pub fn build<M: Constitutive<Solid>, F: Friction, const P: usize, const N: usize
 ) -> SolidModel<M, F, N> {
     const { assert!(N == (P + 1) * (P + 1) * (P + 1)) };
     let Mesh { grid, geometry, .. } = mesh;
-    let volume = Volume::<P>::new(grid, geometry);
+    let volume = Volume::<P>::new(grid, geometry, mesh.layout);
     let copies = if geometry == Geometry::Half { 2.0 } else { 4.0 };
     let offsets = volume.offsets::<N>();
     let mut points = Points::new(material, offsets, grid.remedies.own_volume);

@@ -3,6 +3,7 @@
 use crate::impact::basis::Direction;
 use crate::impact::kernel::Point;
 use crate::plan::{Geometry, Grid, graded};
+use crate::scheme::Layout;
 
 /// Tensor grid of degree `P` in (x, y, z); planes of symmetry at x = 0 (a quarter) and y = 0.
 #[derive(Debug, Clone)]
@@ -15,8 +16,11 @@ pub struct Volume<const P: usize> {
 impl<const P: usize> Volume<P> {
     /// The grid of a plan.
     #[must_use]
-    pub fn new(grid: &Grid, geometry: Geometry) -> Self {
-        let lay = |length, to| graded(length, grid.fine, to, grid.growth, grid.coarse);
+    pub fn new(grid: &Grid, geometry: Geometry, layout: Layout) -> Self {
+        let lay = |length, to| {
+            let length = layout.covering(length, grid.fine);
+            graded(length, grid.fine, to, grid.growth, grid.coarse)
+        };
         let side = lay(1.0, grid.fine_width);
         let mirrored = || side.iter().skip(1).rev().map(|x| -x);
         let along = if geometry == Geometry::Half {
