@@ -56,6 +56,7 @@ impl Run<'_> {
             face: self.view().face(self.bed.as_ref()),
             growth: self.growth(stage),
             checked: self.place.checked,
+            slow_since: None,
         };
         Ok(())
     }
@@ -70,6 +71,7 @@ impl Run<'_> {
     }
 
     fn begin_run(&mut self, run: &RunStage) -> Result<()> {
+        self.bed.evaluate()?;
         let time = self.time();
         self.feed.begin(&run.insert, time);
         for order in &run.moves {
@@ -102,7 +104,17 @@ impl Run<'_> {
     }
 
     /// Notes what a stage waits for.
-    pub(super) fn note(&mut self, stage: &Stage) {
+    pub(super) fn note(&mut self, stage: &Stage, survey: Option<&Packing>) {
+        let rest_speed = match stage {
+            Stage::Settle { rest_speed, .. } => Some(*rest_speed),
+            Stage::Run(run) => run.until.rest_speed,
+            _ => None,
+        };
+        if let (Some(packing), Some(rest_speed)) = (survey, rest_speed) {
+            let slow = packing.contacts > 0 && packing.rms_speed < rest_speed;
+            let since = self.place.slow_since.unwrap_or(self.time());
+            self.place.slow_since = slow.then_some(since);
+        }
         if let Stage::Compress { seating_stress, .. } = stage
             && self.progress.seated_height.is_none()
             && self.view().stress(self.bed.as_ref()) >= *seating_stress
@@ -138,7 +150,7 @@ impl Run<'_> {
                 longest,
                 rest_speed,
                 ..
-            } => self.rests(survey, *rest_speed) || done.0 >= *longest,
+            } => self.rests(*rest_speed) || done.0 >= *longest,
             Stage::Relax { steps } => done.1 >= *steps,
             Stage::Compress { strain, .. } => {
                 let (start, face) = (self.place.face, self.view().face(bed));
@@ -162,17 +174,23 @@ impl Run<'_> {
         })
     }
 
-    fn rests(&self, survey: Option<&Packing>, speed: f64) -> bool {
-        let still = |packing: &Packing| packing.contacts > 0 && packing.rms_speed < speed;
-        survey.is_some_and(still) && self.feed.is_done(self.scene)
+    /// Whether all grains are in and have been slower than `speed` (m/s) for longer than free fall would take to
+    /// reach it twice: slow because something carries them.
+    fn rests(&self, speed: f64) -> bool {
+        let gravity = self.scene.gravity.length();
+        let fall = if gravity > 0.0 {
+            2.0 * speed / gravity
+        } else {
+            0.0
+        };
+        let since = self.place.slow_since;
+        since.is_some_and(|since| self.time() - since >= fall) && self.feed.is_done(self.scene)
     }
 
     /// Whether a condition that ends a stage holds.
     fn holds(&self, run: &RunStage, survey: Option<&Packing>) -> bool {
         let (until, bed) = (&run.until, self.bed.as_ref());
-        let slow = until
-            .rest_speed
-            .is_some_and(|speed| self.rests(survey, speed));
+        let slow = until.rest_speed.is_some_and(|speed| self.rests(speed));
         let calm = until.kinetic_energy.is_some_and(|energy| {
             survey.is_some() && self.feed.is_done(self.scene) && bed.energies().kinetic < energy
         });

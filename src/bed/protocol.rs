@@ -66,6 +66,8 @@ pub struct Place {
     pub growth: f64,
     /// Step of the last check.
     pub checked: u64,
+    /// Since when the grains have been slow, s; none while they are not.
+    pub slow_since: Option<f64>,
 }
 keep_fields!(Place: begun, time, step, next_row, interval, face, growth, checked);
 
@@ -211,7 +213,7 @@ impl<'a> Run<'a> {
         }
         loop {
             let survey = self.prepare()?;
-            self.note(stage);
+            self.note(stage, survey.as_ref());
             for gauge in &mut self.gauges {
                 gauge.read(self.bed.as_ref(), survey.is_some());
             }
