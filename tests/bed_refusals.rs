@@ -285,8 +285,8 @@ fn stages_that_cannot_be_are_refused() {
     );
     refused(
         "seed = 3",
-        "seed = 3\nperiodic = [\"x\"]",
-        &["periodic", "walls"],
+        "seed = 3\nperiodic = [\"z\"]",
+        &["periodic[0]", "sides of the box"],
     );
     refused(
         "gravity = \"9.81 m/s2\"",

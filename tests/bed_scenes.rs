@@ -264,6 +264,45 @@ fn a_revolute_joint_lets_a_flap_hang_and_a_shaken_floor_closes_its_energy() {
 }
 
 #[test]
+fn two_materials_settle_together_each_under_its_own_law() {
+    let materials = "[materials.glass]\ndensity = \"2500 kg/m3\"\nyoung_modulus = \"2 MPa\"\npoisson_ratio = 0.3\nlaw = \"hertz\"\n[materials.lead]\ndensity = \"11300 kg/m3\"\nyoung_modulus = \"1 MPa\"\npoisson_ratio = 0.4\nyield_strength = \"2 kPa\"\nlaw = \"thornton\"\n[[pair]]\nbetween = [\"glass\", \"lead\"]\nfriction = 0.1\n";
+    let grains = "[[grains]]\nname = \"light\"\ncount = 40\nradius = \"1 mm\"\nmaterial = \"glass\"\nregion = { low = [\"0 mm\", \"0 mm\", \"0 mm\"], high = [\"10 mm\", \"10 mm\", \"10 mm\"] }\n[[grains]]\nname = \"heavy\"\ncount = 20\nradius = \"0.8 mm\"\nmaterial = \"lead\"\nregion = { low = [\"0 mm\", \"0 mm\", \"20 mm\"], high = [\"10 mm\", \"10 mm\", \"30 mm\"] }\n";
+    let report = run(&format!("{HEAD}{materials}{grains}{EFFECTS}{BOX}{FALL}"));
+    let run = only(&report);
+    assert_eq!(run.law, "own");
+    assert_eq!((run.summary.grains, run.summary.lost_grains), (60, 0));
+    assert!(
+        run.summary.energy_closure < 0.01,
+        "{}",
+        run.summary.energy_closure
+    );
+    assert!(
+        run.summary.plastic_share > 0.05,
+        "the lead must flow: {}",
+        run.summary.plastic_share
+    );
+}
+
+#[test]
+fn through_periodic_sides_grains_drift_on_and_none_is_lost() {
+    let grains = "[grains]\ncount = 60\nradius = \"1 mm\"\nvelocity = [\"0.3 m/s\", \"0.2 m/s\", \"0 m/s\"]\n";
+    let sides = "periodic = [\"x\", \"y\"]\n";
+    let stage = "[[stage]]\nkind = \"run\"\nduration = \"0.1 s\"\n";
+    let report = run(&format!("{HEAD}{sides}{MATERIAL}{grains}{BOX}{stage}"));
+    let run = only(&report);
+    assert_eq!(run.summary.lost_grains, 0);
+    assert!(
+        run.summary.energy_closure < 0.01,
+        "{}",
+        run.summary.energy_closure
+    );
+    // smooth grains on a smooth floor keep what they bring
+    let motions = &run.portrait.grains.motions;
+    let mean = motions.iter().map(|m| m.velocity.x).sum::<f64>() / motions.len() as f64;
+    assert!((mean - 0.3).abs() < 1e-9, "{mean}");
+}
+
+#[test]
 fn a_run_ends_with_its_condition() {
     let shove = "[[stage]]\nkind = \"run\"\nname = \"press\"\nsteps = 100000\nmove = [{ body = \"piston\", driven = { velocity = [\"0 m/s\", \"0 m/s\", \"-1 m/s\"] } }]\nuntil = { stress = \"2 kPa\" }\n";
     let report = run(&boxed(&format!("{FALL}{shove}")));

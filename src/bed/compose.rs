@@ -39,6 +39,17 @@ impl Effects {
             rolling: contact.rolling.map(|mu| RollingSpring::new(material, mu)),
         }
     }
+
+    /// The same for two bodies of these materials, rigid ones if none.
+    #[must_use]
+    pub fn between(contact: &ContactTable, materials: [Option<&Material>; 2]) -> Self {
+        let (friction, rolling) = (contact.friction, contact.rolling);
+        Self {
+            damping: contact.restitution.map(Viscous::new),
+            friction: friction.map(|mu| Mindlin::between(materials, mu)),
+            rolling: rolling.map(|mu| RollingSpring::between(materials, mu)),
+        }
+    }
 }
 
 /// A bed whose law is known by name only: everything but the loops inside a step.

@@ -172,6 +172,7 @@ impl Feed {
                     centre,
                     radius,
                     density: scene.materials[group.material].material.density,
+                    material: group.material as u8,
                     velocity,
                 };
                 self.inflows[index].batches += 1;

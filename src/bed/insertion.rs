@@ -28,6 +28,8 @@ pub struct Newcomer {
     pub radius: f64,
     /// Density, kg/m3.
     pub density: f64,
+    /// Material, as an index into those of the scene.
+    pub material: u8,
     /// Velocity, m/s.
     pub velocity: Vector,
 }
@@ -48,7 +50,10 @@ impl Newcomer {
 
     /// Adds it to the grains.
     pub fn join(&self, grains: &mut Grains) {
-        grains.add(self.centre, self.radius, self.density);
+        match self.material {
+            0 => grains.add(self.centre, self.radius, self.density),
+            material => grains.add_of(material, self.centre, self.radius, self.density),
+        }
         if let Some(motion) = grains.motions.last_mut() {
             motion.velocity = self.velocity;
         }
@@ -117,6 +122,7 @@ pub fn lattice(
             centre: low + (place + 0.5) * spacing + layer + shift,
             radius,
             density,
+            material: group.material as u8,
             velocity: velocity_of(group, random),
         };
         if group
@@ -153,7 +159,10 @@ fn floor_and_lid(scene: &Scene, group: &Group) -> [Vector; 2] {
 pub fn insert(scene: &Scene, seed: u64) -> Result<(Grains, Feed, Room)> {
     check_regions(scene, seed)?;
     let mut feed = Feed::new(scene, seed);
-    let mut grains = Grains::default();
+    let mut grains = Grains {
+        room: scene.sides()?,
+        ..Grains::default()
+    };
     let mut groups = Vec::new();
     for group in feed.initial(scene) {
         let newcomers = feed.lattice(scene, group);
@@ -222,7 +231,10 @@ fn check_regions(scene: &Scene, seed: u64) -> Result<()> {
 }
 
 fn check_overlaps(scene: &Scene, grains: &Grains, groups: &[usize]) -> Result<()> {
-    let Some(&[a, b]) = HalfList::new(&grains.spheres, 0.0).pairs.first() else {
+    let Some(&[a, b]) = HalfList::within(&grains.room, &grains.spheres, 0.0)
+        .pairs
+        .first()
+    else {
         return Ok(());
     };
     let [a, b] = [a, b].map(|grain| &scene.groups[groups[grain as usize]]);

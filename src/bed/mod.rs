@@ -2,6 +2,7 @@
 
 pub mod acts;
 pub mod adapter;
+pub mod assembly;
 pub mod bodies;
 pub mod body_row;
 pub mod by_material;

@@ -27,6 +27,8 @@ pub struct Room {
     pub thickness: f64,
     /// Whether grains may not go above the height either.
     pub closed: bool,
+    /// Whether the sides along x and y are periodic: no walls, and floor and piston reach beyond them.
+    pub periodic: [bool; 2],
 }
 
 impl Room {
@@ -40,6 +42,7 @@ impl Room {
             height,
             thickness,
             closed: false,
+            periodic: [false; 2],
         }
     }
 
@@ -54,6 +57,7 @@ impl Room {
             height: size.z,
             thickness,
             closed: true,
+            periodic: [false; 2],
         }
     }
 
@@ -69,8 +73,8 @@ impl Room {
         let inside = point - self.corner;
         inside.z >= 0.0
             && (!self.closed || inside.z <= self.height)
-            && (0.0..=self.width).contains(&inside.x)
-            && (0.0..=self.depth).contains(&inside.y)
+            && (self.periodic[0] || (0.0..=self.width).contains(&inside.x))
+            && (self.periodic[1] || (0.0..=self.depth).contains(&inside.y))
     }
 
     /// Floor, walls, and the piston parked under the rim.
@@ -78,10 +82,12 @@ impl Room {
     pub fn bodies(&self) -> Vec<Body> {
         let (h, t) = (self.height, self.thickness);
         let mut bodies = self.walls();
+        let beyond = self.periodic.map(|periodic| if periodic { t } else { 0.0 });
+        let beyond = Vector::new(beyond[0], beyond[1], 0.0);
         let mut piston = Body::block(
             PISTON,
-            self.corner + Vector::new(0.0, 0.0, h - t),
-            self.corner + Vector::new(self.width, self.depth, h),
+            self.corner + Vector::new(0.0, 0.0, h - t) - beyond,
+            self.corner + Vector::new(self.width, self.depth, h) + beyond,
         );
         piston.mobility = Mobility::Driven(Motion::default());
         bodies.push(piston);
@@ -99,10 +105,14 @@ impl Room {
             ([0.0, -t, 0.0], [w, 0.0, h]),
             ([0.0, d, 0.0], [w, d + t, h]),
         ];
+        let [x, y] = self.periodic;
+        let standing = [true, !x, !x, !y, !y];
         WALLS
             .iter()
             .zip(corners)
-            .map(|(name, (low, high))| {
+            .zip(standing)
+            .filter(|(_, standing)| *standing)
+            .map(|((name, (low, high)), _)| {
                 Body::block(
                     name,
                     self.corner + Vector::from(low),
@@ -122,7 +132,10 @@ impl Room {
             let height = container
                 .height
                 .unwrap_or(top + thickness + room_for_piston);
-            return Room::open_box(container.width, container.depth, height, thickness);
+            return Room {
+                periodic: container.periodic,
+                ..Room::open_box(container.width, container.depth, height, thickness)
+            };
         }
         Room::block(scene.domain.unwrap_or_else(|| scene.extent()), thickness)
     }

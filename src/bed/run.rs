@@ -1,11 +1,10 @@
 //! Run of a scene: one packing, then the same stages under each law, side by side.
 
-use super::compose::{AnyBed, Effects, NormalsOf, build};
-use super::feed::Feed;
+use super::assembly::{Recipe, Start, assemble, elastic, laws, machine};
+use super::compose::AnyBed;
 use super::film::Frame;
 use super::grains::Grains;
 use super::insertion::{check_bodies, insert};
-use super::machine::{BodyState, Machine};
 use super::oedometer;
 use super::output::{Counts, Summary};
 use super::picture::write_picture;
@@ -15,20 +14,14 @@ use super::record::Record;
 use super::room::Room;
 use super::row::Row;
 use super::scene::{Scene, Stage};
-use super::step::{Normals, Parts};
-use super::time_step::{self, Limits};
-use crate::contact::LawVisitor;
+use super::time_step;
 use crate::files::write_rows;
 use crate::law::{AnyLaw, LawFile};
 use crate::tape::{Checkpoint, Keeper, TakenUp, keep_fields};
-use crate::theory::hertz::Hertz;
 use crate::{Error, Result};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// Distance up to which neighbours are listed, over the largest radius: the best of a scan between lists that are
-/// short and lists that last.
-const SKIN: f64 = 0.15;
 /// Overlap over diameter above which a warning is given: contacts of one grain are then no longer apart.
 const DEEP: f64 = 0.05;
 /// File a run under way is kept in.
@@ -75,15 +68,6 @@ pub struct BedReport {
     pub picture: PathBuf,
 }
 
-/// Where all laws start from.
-pub(super) struct Start {
-    pub(super) grains: Grains,
-    bodies: Option<Vec<BodyState>>,
-    time: f64,
-    pub(super) feed: Feed,
-    pub(super) room: Room,
-}
-
 /// Runs a scene and writes its files; `given` is the law file beside the scene.
 ///
 /// Call it from a worker of a rayon pool (`rayon::scope`), or every step pays for a change of threads.
@@ -93,7 +77,10 @@ pub(super) struct Start {
 /// another material, and [`crate::Error::Value`] when grains or bodies have no room or the time step is too large;
 /// then [`crate::Error::Bed`] when a bed cannot go on and [`crate::Error::File`] when a file cannot be written.
 pub fn run_scene(scene: &Scene, given: Option<&LawFile>, options: &Options) -> Result<BedReport> {
-    let laws = laws(scene, given)?;
+    let names = scene.laws.iter();
+    let laws: Vec<Vec<AnyLaw>> = names
+        .map(|name| laws(scene, name, given))
+        .collect::<Result<_>>()?;
     let mut start = begin(scene, options)?;
     let prepares = scene.stages.iter().any(Stage::prepares);
     let packing = match prepares {
@@ -101,8 +88,8 @@ pub fn run_scene(scene: &Scene, given: Option<&LawFile>, options: &Options) -> R
         false => None,
     };
     let mut runs = Vec::new();
-    for (name, law) in scene.laws.iter().zip(&laws) {
-        runs.push(under_law(scene, name, law, &start, options)?);
+    for (name, laws) in scene.laws.iter().zip(laws) {
+        runs.push(under_law(scene, name, laws, &start, options)?);
     }
     let oedometer = options.folder.join("bed/oedometer.csv");
     let series = runs.iter().map(|run| (run.law.as_str(), &run.rows[..]));
@@ -142,49 +129,6 @@ pub(super) fn begin(scene: &Scene, options: &Options) -> Result<Start> {
     })
 }
 
-/// Laws of the runs, refused before the first step if one cannot be had.
-fn laws(scene: &Scene, given: Option<&LawFile>) -> Result<Vec<AnyLaw>> {
-    let material = &scene.materials[scene.groups[0].material];
-    let names = scene.laws.iter();
-    names.map(|name| material.law_in(name, given)).collect()
-}
-
-fn machine(scene: &Scene, room: &Room) -> Result<Machine> {
-    Machine::new(scene.all_bodies(room), scene.gravity, scene.radius())
-}
-
-/// Bed as it is at the start.
-fn bed(
-    scene: &Scene,
-    start: &Start,
-    normals: Normals,
-    effects: &Effects,
-) -> Result<Box<dyn AnyBed>> {
-    let mut machine = machine(scene, &start.room)?;
-    if let Some(bodies) = &start.bodies {
-        machine.restore(bodies, start.time);
-    }
-    let mut grains = start.grains.clone();
-    grains.plastic.fill(0.0);
-    let parts = Parts {
-        grains,
-        machine,
-        gravity: scene.gravity,
-        dt: Limits::of(scene).rayleigh(1.0),
-        skin: SKIN * scene.radii()[1],
-    };
-    let mut bed = build(normals, effects, parts);
-    bed.soften(scene.contact.softening());
-    Ok(bed)
-}
-
-fn normals(scene: &Scene) -> NormalsOf {
-    let [smallest, largest] = scene.radii();
-    NormalsOf {
-        monodisperse: smallest == largest,
-    }
-}
-
 /// Makes the packing with softened elastic contacts.
 pub(super) fn pack(scene: &Scene, start: &mut Start, options: &Options) -> Result<LawRun> {
     let began = Instant::now();
@@ -192,9 +136,12 @@ pub(super) fn pack(scene: &Scene, start: &mut Start, options: &Options) -> Resul
         Stage::Settle { contact, .. } => Some(*contact),
         _ => None,
     });
-    let effects = Effects::of(&contact.unwrap_or(scene.contact), scene.material());
-    let law = normals(scene).visit(&Hertz::of(scene.material()));
-    let bed = bed(scene, start, law, &effects)?;
+    let recipe = Recipe {
+        laws: elastic(scene),
+        contact: &contact.unwrap_or(scene.contact),
+        by_pair: false,
+    };
+    let bed = assemble(scene, start, &recipe)?;
     let mut observer = Watch::new("packing", scene, options);
     let checkpoint = checkpoint("packing", options);
     let plan = format!("{} {:?} packing", scene.hash, options.seed);
@@ -214,17 +161,20 @@ pub(super) fn pack(scene: &Scene, start: &mut Start, options: &Options) -> Resul
 fn under_law(
     scene: &Scene,
     name: &str,
-    law: &AnyLaw,
+    laws: Vec<AnyLaw>,
     start: &Start,
     options: &Options,
 ) -> Result<LawRun> {
     let began = Instant::now();
-    let normals = law.visit(normals(scene))?;
-    let effects = Effects::of(&scene.contact, scene.material());
-    let bed = bed(scene, start, normals, &effects)?;
+    let recipe = Recipe {
+        laws,
+        contact: &scene.contact,
+        by_pair: true,
+    };
+    let plan = format!("{} {:?} {name} {:?}", scene.hash, options.seed, recipe.laws);
+    let bed = assemble(scene, start, &recipe)?;
     let mut observer = Watch::new(name, scene, options);
     let checkpoint = checkpoint(name, options);
-    let plan = format!("{} {:?} {name} {law:?}", scene.hash, options.seed);
     let mut run = Run::new(bed, scene, start.room, start.feed.clone(), &mut observer);
     let stages: Vec<&Stage> = scene.stages.iter().filter(|s| !s.prepares()).collect();
     go(&mut run, &stages, &plan, checkpoint.as_ref())?;

@@ -2,6 +2,7 @@
 
 use super::drive::{DrivenTable, FreeTable};
 use super::group::vector;
+use super::material::GrainMaterial;
 use crate::Result;
 use crate::bed::bodies::{Body, Mobility, Solid};
 use crate::bed::mesh;
@@ -16,6 +17,7 @@ use std::collections::BTreeMap;
 #[serde(deny_unknown_fields)]
 pub(super) struct BodyTable {
     name: String,
+    material: Option<String>,
     block: Option<BlockTable>,
     ball: Option<BallTable>,
     cylinder: Option<CylinderTable>,
@@ -90,9 +92,11 @@ pub(super) fn check_bodies(
     document: &Document,
     tables: Vec<BodyTable>,
     reserved: &[&str],
+    materials: &[GrainMaterial],
     files: &mut Files,
-) -> Result<Vec<Body>> {
+) -> Result<(Vec<Body>, Vec<Option<usize>>)> {
     let mut bodies: Vec<Body> = Vec::new();
+    let mut own = Vec::new();
     for (index, table) in tables.into_iter().enumerate() {
         let key = format!("body[{index}]");
         let taken = bodies.iter().any(|body| body.name == table.name);
@@ -104,9 +108,10 @@ pub(super) fn check_bodies(
             document,
             key: &key,
         };
+        own.push(table.material(&at, materials)?);
         bodies.push(table.check(&at, files)?);
     }
-    Ok(bodies)
+    Ok((bodies, own))
 }
 
 impl At<'_> {
@@ -134,6 +139,24 @@ impl At<'_> {
 }
 
 impl BodyTable {
+    fn material(&self, at: &At, materials: &[GrainMaterial]) -> Result<Option<usize>> {
+        let Some(name) = &self.material else {
+            return Ok(None);
+        };
+        let place = materials.iter().position(|material| material.name == *name);
+        let names: Vec<&str> = materials
+            .iter()
+            .map(|material| &material.name[..])
+            .collect();
+        place.map(Some).ok_or_else(|| {
+            let allowed = format!(
+                "must be one of {}, or left out for a rigid body",
+                names.join(", ")
+            );
+            at.reject("material", &allowed)
+        })
+    }
+
     fn check(self, at: &At, files: &mut Files) -> Result<Body> {
         let (solid, own_turn) = self.solid(at, files)?;
         let turn = match &self.turn {

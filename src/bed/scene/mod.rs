@@ -1,31 +1,37 @@
 //! Scene: what a bed file says, checked and in SI units.
 
 mod body;
+mod check;
+mod container;
 mod drive;
 mod group;
 mod material;
 mod measure;
+mod pair;
 mod settings;
 mod stage;
 mod stages;
 mod written;
 
+pub use container::Container;
 pub use group::{Amount, Group, Insertion};
 pub use material::{GrainMaterial, LawChoice, OWN};
 pub use measure::{Measure, Orifice, Plane};
+pub use pair::PairContact;
 pub use settings::{ContactTable, OutputTable, TimeStep};
 pub use stage::{Change, Duration, Move, RunStage, Stage, Until};
 
-use super::bodies::{Body, Mobility, Solid};
-use super::mesh::shortest_edge;
+use super::bodies::Body;
+use super::periodic::Periodic;
 use super::room::{PISTON, Room, WALLS};
 use crate::Result;
 use crate::document::Document;
-use crate::unit::{Length, Quantity, engineering};
 use body::{BodyTable, Files, check_bodies};
+use container::BoxTable;
 use group::{GroupTable, RegionTable, check_groups};
 use material::{SceneMaterialTable, check_laws, check_materials};
 use measure::{MeasureTable, check_measures};
+use pair::{PairTable, check_pairs};
 use parry3d::math::Vector;
 use serde::Deserialize;
 use settings::TimeTable;
@@ -34,9 +40,6 @@ use stages::{Cast, StageTable, check_stages};
 use std::collections::BTreeMap;
 use std::path::Path;
 use written::{Gravity, OneOrMany};
-
-/// Shortest edge of a mesh over the smallest radius.
-const SHORTEST_EDGE: f64 = 0.02;
 
 /// Name of the law that comes from a law file.
 pub const FITTED: &str = "fitted";
@@ -62,12 +65,16 @@ pub struct Scene {
     pub groups: Vec<Group>,
     /// Effects beside the normal law.
     pub contact: ContactTable,
+    /// Effects of pairs of materials.
+    pub pairs: Vec<PairContact>,
     /// The box, if there is one.
     pub container: Option<Container>,
     /// Block of space (m, two corners) that grains must not leave, if the scene says so.
     pub domain: Option<[Vector; 2]>,
     /// Bodies beside the box.
     pub bodies: Vec<Body>,
+    /// Material of each of them; rigid if none.
+    pub body_materials: Vec<Option<usize>>,
     /// Time step.
     pub time: TimeStep,
     /// Stages, in order.
@@ -76,19 +83,6 @@ pub struct Scene {
     pub measures: Vec<Measure>,
     /// Files.
     pub output: OutputTable,
-}
-
-/// Box of a scene: walls around x in [0, width], y in [0, depth], on the floor z = 0.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Container {
-    /// Inner edge along x, m.
-    pub width: f64,
-    /// Inner edge along y, m.
-    pub depth: f64,
-    /// Height of the walls, m; what the grains need if none.
-    pub height: Option<f64>,
-    /// Whether a piston hangs under the rim.
-    pub piston: bool,
 }
 
 /// The scene file as it is written.
@@ -106,6 +100,8 @@ struct SceneFile {
     grains: OneOrMany<GroupTable>,
     #[serde(default)]
     contact: ContactTable,
+    #[serde(default)]
+    pair: Vec<PairTable>,
     #[serde(rename = "box")]
     container: Option<BoxTable>,
     domain: Option<RegionTable>,
@@ -118,14 +114,6 @@ struct SceneFile {
     measure: Vec<MeasureTable>,
     #[serde(default)]
     output: OutputTable,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct BoxTable {
-    width: Quantity<Length>,
-    depth: Quantity<Length>,
-    height: Option<Quantity<Length>>,
 }
 
 impl Scene {
@@ -147,16 +135,13 @@ impl Scene {
 
     fn from_document(document: &Document) -> Result<Self> {
         let file: SceneFile = document.parse()?;
-        if !file.periodic.is_empty() {
-            let allowed = "must be left out: periodic sides are not there yet; use walls";
-            return Err(document.reject("periodic", allowed));
-        }
         let mut files = Files::new();
         let materials = check_materials(document, file.material, file.materials)?;
         let groups = check_groups(document, file.grains, &materials)?;
         let contact = file.contact.check(document)?;
         let reserved: Vec<&str> = WALLS.iter().copied().chain([PISTON]).collect();
-        let bodies = check_bodies(document, file.body, &reserved, &mut files)?;
+        let (bodies, body_materials) =
+            check_bodies(document, file.body, &reserved, &materials, &mut files)?;
         let mut cast = Cast {
             contact: &contact,
             bodies: bodies.iter().map(|body| body.name.clone()).collect(),
@@ -164,13 +149,22 @@ impl Scene {
             boxed: file.container.is_some(),
         };
         if cast.boxed {
-            cast.bodies
-                .extend(reserved.iter().map(|&name| name.to_owned()));
+            let gone = |name: &str| match name {
+                "left" | "right" => file.periodic.iter().any(|side| side == "x"),
+                "front" | "back" => file.periodic.iter().any(|side| side == "y"),
+                _ => false,
+            };
+            let standing = reserved.iter().filter(|name| !gone(name));
+            cast.bodies.extend(standing.map(|&name| name.to_owned()));
         }
         let stages = check_stages(document, file.stage, &cast)?;
         let container = match file.container {
-            Some(table) => Some(table.check(document, &stages)?),
-            None => None,
+            Some(table) => Some(table.check(document, &stages, &file.periodic)?),
+            None if file.periodic.is_empty() => None,
+            None => {
+                let allowed = "needs a `[box]`, whose width and depth are the periods";
+                return Err(document.reject("periodic", allowed));
+            }
         };
         let scene = Scene {
             name: document.name(),
@@ -179,6 +173,7 @@ impl Scene {
             laws: check_laws(document, file.laws, &materials)?,
             seed: file.seed,
             gravity: file.gravity.check(document)?,
+            pairs: check_pairs(document, file.pair, &materials, &contact)?,
             materials,
             groups,
             contact,
@@ -188,6 +183,7 @@ impl Scene {
                 None => None,
             },
             bodies,
+            body_materials,
             time: file.time.check(document)?,
             stages,
             measures: check_measures(document, file.measure, &cast.bodies)?,
@@ -195,7 +191,6 @@ impl Scene {
         };
         scene.check_room()?;
         scene.check_meshes()?;
-        scene.check_materials()?;
         scene.check_moves()?;
         Ok(scene)
     }
@@ -221,6 +216,46 @@ impl Scene {
         &self.materials[self.groups[0].material].material
     }
 
+    /// Periodic sides.
+    ///
+    /// # Errors
+    /// As [`Periodic::new`].
+    pub fn sides(&self) -> Result<Periodic> {
+        let period = self.container.map_or([None; 2], |container| {
+            let edges = [container.width, container.depth];
+            [0, 1].map(|axis| container.periodic[axis].then_some(edges[axis]))
+        });
+        Periodic::new(Vector::ZERO, [period[0], period[1], None])
+    }
+
+    /// Whether grains or bodies are of a material.
+    #[must_use]
+    pub fn uses(&self, material: usize) -> bool {
+        let groups = self.groups.iter().map(|group| group.material);
+        groups
+            .chain(self.body_materials.iter().flatten().copied())
+            .any(|used| used == material)
+    }
+
+    /// Whether contacts of more than one kind of body can occur: several materials, or bodies that flatten too.
+    #[must_use]
+    pub fn is_mixture(&self) -> bool {
+        let first = self.groups[0].material;
+        let several = self.groups.iter().any(|group| group.material != first);
+        several || self.body_materials.iter().any(Option::is_some)
+    }
+
+    /// Effects of the contacts of two materials.
+    #[must_use]
+    pub fn contact_of(&self, a: usize, b: usize) -> ContactTable {
+        let own = self
+            .pairs
+            .iter()
+            .rev()
+            .find(|pair| pair.between == [a, b] || pair.between == [b, a]);
+        own.map_or(self.contact, |pair| pair.contact)
+    }
+
     /// Walls of the box, the piston if it is used, then the scene's own bodies.
     #[must_use]
     pub fn all_bodies(&self, room: &Room) -> Vec<Body> {
@@ -241,128 +276,6 @@ impl Scene {
         let corners = regions.map(|region| region.corners()).chain(bodies);
         corners.fold([Vector::MAX, Vector::MIN], |[low, high], [below, above]| {
             [low.min(below), high.max(above)]
-        })
-    }
-
-    fn check_room(&self) -> Result<()> {
-        let document = &self.document;
-        let [_, largest] = self.radii();
-        let Some(container) = &self.container else {
-            if let Some(group) = self.groups.iter().find(|group| group.region.is_none()) {
-                let key = format!("{}.region", group.key);
-                return Err(document.reject(&key, "must be there where there is no `[box]`"));
-            }
-            let planes = self
-                .bodies
-                .iter()
-                .any(|body| body.solid == Solid::HalfSpace);
-            if planes && self.domain.is_none() {
-                let allowed = "must say which space grains must not leave: a plane has no end";
-                return Err(document.reject("domain", allowed));
-            }
-            return Ok(());
-        };
-        if self.domain.is_some() {
-            let allowed = "must be left out where there is a `[box]`";
-            return Err(document.reject("domain", allowed));
-        }
-        for (key, edge) in [
-            ("box.width", container.width),
-            ("box.depth", container.depth),
-        ] {
-            if edge < 4.0 * largest {
-                return Err(document.reject(
-                    key,
-                    "must be at least two grain diameters, or no grain fits without overlap",
-                ));
-            }
-        }
-        Ok(())
-    }
-
-    /// That no mesh has edges so short, compared with the grains, that its touched points cannot be told apart.
-    fn check_meshes(&self) -> Result<()> {
-        let [smallest, _] = self.radii();
-        for (index, body) in self.bodies.iter().enumerate() {
-            let Solid::Mesh {
-                vertices,
-                triangles,
-            } = &body.solid
-            else {
-                continue;
-            };
-            let edge = shortest_edge(vertices, triangles);
-            if edge < SHORTEST_EDGE * smallest {
-                let allowed = format!(
-                    "must not be so much smaller than the grains: an edge of {} against a radius of {}; merge short edges, or look at `scale`",
-                    engineering(edge, "m", 2),
-                    engineering(smallest, "m", 2)
-                );
-                return Err(self
-                    .document
-                    .reject(&format!("body[{index}].mesh"), allowed));
-            }
-        }
-        Ok(())
-    }
-
-    fn check_materials(&self) -> Result<()> {
-        let first = self.groups[0].material;
-        match self.groups.iter().find(|group| group.material != first) {
-            Some(other) => Err(self.document.reject(
-                &format!("{}.material", other.key),
-                "must be that of the other groups: contacts between two materials are not there yet",
-            )),
-            None => Ok(()),
-        }
-    }
-
-    /// That bodies are told to move, or let go, only if they can.
-    fn check_moves(&self) -> Result<()> {
-        for (index, stage) in self.stages.iter().enumerate() {
-            let Stage::Run(run) = stage else { continue };
-            for (at, order) in run.moves.iter().enumerate() {
-                let key = format!("stage[{index}].move[{at}]");
-                let body = self.bodies.iter().find(|body| body.name == order.body);
-                let held = body.is_some_and(
-                    |body| matches!(body.mobility, Mobility::Free(freedom) if freedom.held),
-                );
-                let free = body.is_some_and(|body| matches!(body.mobility, Mobility::Free(_)));
-                match order.change {
-                    Change::Release if !held => {
-                        let allowed = "must stand for a free body with `held = true`";
-                        return Err(self.document.reject(&format!("{key}.release"), allowed));
-                    }
-                    Change::Drive(_) if free => {
-                        let allowed =
-                            "must not be told to a free body, which moves under its forces";
-                        return Err(self.document.reject(&key, allowed));
-                    }
-                    _ => {}
-                }
-            }
-        }
-        Ok(())
-    }
-}
-
-impl BoxTable {
-    fn check(self, document: &Document, stages: &[Stage]) -> Result<Container> {
-        let uses_piston = |stage: &Stage| match stage {
-            Stage::Compress { .. } => true,
-            Stage::Run(run) => {
-                run.until.stress.is_some() || run.moves.iter().any(|order| order.body == PISTON)
-            }
-            _ => false,
-        };
-        Ok(Container {
-            width: document.positive("box.width", self.width)?,
-            depth: document.positive("box.depth", self.depth)?,
-            height: match self.height {
-                Some(height) => Some(document.positive("box.height", height)?),
-                None => None,
-            },
-            piston: stages.iter().any(uses_piston),
         })
     }
 }

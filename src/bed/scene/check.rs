@@ -1,0 +1,116 @@
+//! Checks of a scene as a whole: its room, its meshes, and what its stages tell bodies to do.
+
+use super::{Change, Scene, Stage};
+use crate::Result;
+use crate::bed::bodies::{Mobility, Solid};
+use crate::bed::mesh::shortest_edge;
+use crate::unit::engineering;
+
+/// Shortest edge of a mesh over the smallest radius.
+const SHORTEST_EDGE: f64 = 0.02;
+
+/// Shortest period over the largest radius: twice the distance up to which neighbours are listed.
+const SHORTEST_PERIOD: f64 = 6.0;
+
+impl Scene {
+    pub(super) fn check_room(&self) -> Result<()> {
+        let document = &self.document;
+        let [_, largest] = self.radii();
+        let Some(container) = &self.container else {
+            if let Some(group) = self.groups.iter().find(|group| group.region.is_none()) {
+                let key = format!("{}.region", group.key);
+                return Err(document.reject(&key, "must be there where there is no `[box]`"));
+            }
+            let planes = self
+                .bodies
+                .iter()
+                .any(|body| body.solid == Solid::HalfSpace);
+            if planes && self.domain.is_none() {
+                let allowed = "must say which space grains must not leave: a plane has no end";
+                return Err(document.reject("domain", allowed));
+            }
+            return Ok(());
+        };
+        if self.domain.is_some() {
+            let allowed = "must be left out where there is a `[box]`";
+            return Err(document.reject("domain", allowed));
+        }
+        for (key, edge) in [
+            ("box.width", container.width),
+            ("box.depth", container.depth),
+        ] {
+            if edge < 4.0 * largest {
+                return Err(document.reject(
+                    key,
+                    "must be at least two grain diameters, or no grain fits without overlap",
+                ));
+            }
+        }
+        let edges = [container.width, container.depth];
+        for ((edge, periodic), key) in edges
+            .iter()
+            .zip(container.periodic)
+            .zip(["box.width", "box.depth"])
+        {
+            if periodic && *edge < SHORTEST_PERIOD * largest {
+                let allowed = "must be at least three grain diameters where it is a period, or two grains meet through both sides";
+                return Err(document.reject(key, allowed));
+            }
+        }
+        Ok(())
+    }
+
+    /// That no mesh has edges so short, compared with the grains, that its touched points cannot be told apart.
+    pub(super) fn check_meshes(&self) -> Result<()> {
+        let [smallest, _] = self.radii();
+        for (index, body) in self.bodies.iter().enumerate() {
+            let Solid::Mesh {
+                vertices,
+                triangles,
+            } = &body.solid
+            else {
+                continue;
+            };
+            let edge = shortest_edge(vertices, triangles);
+            if edge < SHORTEST_EDGE * smallest {
+                let allowed = format!(
+                    "must not be so much smaller than the grains: an edge of {} against a radius of {}; merge short edges, or look at `scale`",
+                    engineering(edge, "m", 2),
+                    engineering(smallest, "m", 2)
+                );
+                return Err(self
+                    .document
+                    .reject(&format!("body[{index}].mesh"), allowed));
+            }
+        }
+        Ok(())
+    }
+
+    /// That bodies are told to move, or let go, only if they can.
+    pub(super) fn check_moves(&self) -> Result<()> {
+        for (index, stage) in self.stages.iter().enumerate() {
+            let Stage::Run(run) = stage else { continue };
+            for (at, order) in run.moves.iter().enumerate() {
+                let key = format!("stage[{index}].move[{at}]");
+                let body = self.bodies.iter().find(|body| body.name == order.body);
+                let held = body.is_some_and(
+                    |body| matches!(body.mobility, Mobility::Free(freedom) if freedom.held),
+                );
+                let free = body.is_some_and(|body| matches!(body.mobility, Mobility::Free(_)));
+                match order.change {
+                    Change::Release if !held => {
+                        let allowed = "must stand for a free body with `held = true`";
+                        return Err(self.document.reject(&format!("{key}.release"), allowed));
+                    }
+                    Change::Drive(_) if free => {
+                        let allowed =
+                            "must not be told to a free body, which moves under its forces";
+                        return Err(self.document.reject(&key, allowed));
+                    }
+                    _ => {}
+                }
+            }
+        }
+        Ok(())
+    }
+}
