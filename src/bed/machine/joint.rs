@@ -95,7 +95,8 @@ impl Machine {
         for (tie, before) in driven.zip(before) {
             let joint = self.world.impulse_joints.get(tie.handle);
             if let (Some(joint), Some(along)) = (joint, tie.motor) {
-                let impulse = joint.data.motors[along as usize].impulse;
+                // rapier counts the impulse on the ground, the first body of the joint
+                let impulse = -joint.data.motors[along as usize].impulse;
                 work += 0.5 * impulse * (before + self.rate(tie)) * self.unit * self.unit;
             }
         }
