@@ -153,8 +153,8 @@ fn grains_of_a_mass_and_of_sieve_classes_add_up() {
 fn no_grain_leaves_a_closed_box_at_fifty_metres_a_second() {
     let grains = "[grains]\ncount = 60\nradius = \"1 mm\"\nstir = \"30 m/s\"\n";
     let lid = "[[body]]\nname = \"lid\"\nblock = { size = [\"20 mm\", \"20 mm\", \"4 mm\"] }\nat = [\"5 mm\", \"5 mm\", \"42 mm\"]\n";
-    let stage = "[[stage]]\nkind = \"run\"\nduration = \"20 ms\"\n";
-    let stiff = MATERIAL.replace("2 MPa", "2 GPa");
+    let stage = "[[stage]]\nkind = \"run\"\nduration = \"8 ms\"\n";
+    let stiff = MATERIAL.replace("2 MPa", "20 GPa");
     let report = run(&format!("{HEAD}{stiff}{grains}{BOX}{lid}{stage}"));
     let run = only(&report);
     assert!(run.rows.iter().any(|row| row.max_speed_m_s > 50.0));
@@ -266,11 +266,11 @@ fn a_revolute_joint_lets_a_flap_hang_and_a_shaken_floor_closes_its_energy() {
 #[test]
 fn two_materials_settle_together_each_under_its_own_law() {
     let materials = "[materials.glass]\ndensity = \"2500 kg/m3\"\nyoung_modulus = \"2 MPa\"\npoisson_ratio = 0.3\nlaw = \"hertz\"\n[materials.lead]\ndensity = \"11300 kg/m3\"\nyoung_modulus = \"1 MPa\"\npoisson_ratio = 0.4\nyield_strength = \"2 kPa\"\nlaw = \"thornton\"\n[[pair]]\nbetween = [\"glass\", \"lead\"]\nfriction = 0.1\n";
-    let grains = "[[grains]]\nname = \"light\"\ncount = 40\nradius = \"1 mm\"\nmaterial = \"glass\"\nregion = { low = [\"0 mm\", \"0 mm\", \"0 mm\"], high = [\"10 mm\", \"10 mm\", \"10 mm\"] }\n[[grains]]\nname = \"heavy\"\ncount = 20\nradius = \"0.8 mm\"\nmaterial = \"lead\"\nregion = { low = [\"0 mm\", \"0 mm\", \"20 mm\"], high = [\"10 mm\", \"10 mm\", \"30 mm\"] }\n";
+    let grains = "[[grains]]\nname = \"light\"\ncount = 30\nradius = \"1 mm\"\nmaterial = \"glass\"\nregion = { low = [\"0 mm\", \"0 mm\", \"0 mm\"], high = [\"10 mm\", \"10 mm\", \"10 mm\"] }\n[[grains]]\nname = \"heavy\"\ncount = 20\nradius = \"0.8 mm\"\nmaterial = \"lead\"\nregion = { low = [\"0 mm\", \"0 mm\", \"20 mm\"], high = [\"10 mm\", \"10 mm\", \"30 mm\"] }\n";
     let report = run(&format!("{HEAD}{materials}{grains}{EFFECTS}{BOX}{FALL}"));
     let run = only(&report);
     assert_eq!(run.law, "own");
-    assert_eq!((run.summary.grains, run.summary.lost_grains), (60, 0));
+    assert_eq!((run.summary.grains, run.summary.lost_grains), (50, 0));
     assert!(
         run.summary.energy_closure < 0.01,
         "{}",
@@ -330,7 +330,10 @@ fn the_drum_of_the_cases_is_a_cylinder_with_six_lifters() {
         let reach = v.x.hypot(v.z);
         let sector = (v.z.atan2(v.x) / TAU * 12.0).rem_euclid(2.0);
         if near(reach, radius - lifter) {
-            assert!(near(sector, 1.0), "lifters stand at odd twelfths: {sector}");
+            assert!(
+                (sector - 1.0).abs() < 1e-6,
+                "lifters stand at odd twelfths: {sector}"
+            );
             inner += 1;
         } else {
             assert!(near(reach, radius) || near(reach, 0.0), "{v}");
