@@ -266,7 +266,7 @@ pub struct LawEvalArgs {
 pub struct ExportArgs {
     /// Law file.
     pub law: PathBuf,
-    /// Where the law goes: `c`, `table`; more than one with commas, or `all`.
+    /// Where the law goes: `c`, `liggghts`, `lammps`, `table`, `native`, `deme`, `mercurydpm`; more than one with commas, or `all`.
     #[arg(long, num_args = 1.., value_delimiter = ',')]
     pub to: Vec<String>,
     /// Form of the law instead of the file's: `closed_form`, `spline` or `hertz`.
