@@ -297,7 +297,7 @@ fn through_periodic_sides_grains_drift_on_and_none_is_lost() {
         run.summary.energy_closure
     );
     // smooth grains on a smooth floor keep what they bring
-    let motions = &run.portrait.grains.motions;
+    let motions = &run.grains.motions;
     let mean = motions.iter().map(|m| m.velocity.x).sum::<f64>() / motions.len() as f64;
     assert!((mean - 0.3).abs() < 1e-9, "{mean}");
 }

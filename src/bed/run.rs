@@ -11,7 +11,6 @@ use super::picture::write_picture;
 use super::portrait::{Cast, Portrait};
 use super::protocol::{Done, Observer, Run};
 use super::record::Record;
-use super::room::Room;
 use super::row::Row;
 use super::scene::{Scene, Stage};
 use super::time_step;
