@@ -27,6 +27,8 @@ fn scene(folder: &Path) -> PathBuf {
         text.push_str(match line {
             _ if line.starts_with("laws =") => "laws = [\"fitted\"]",
             _ if line.starts_with("rows =") => "rows = 600",
+            // far past the seating: a packing that has just jammed answers a rounding error with another stress
+            _ if line.starts_with("strain =") => "strain = 0.1",
             _ => line,
         });
         text.push('\n');
@@ -195,11 +197,8 @@ fn an_oedometer_exported_to_lammps_is_the_one_that_runs_here() {
         &folder,
         &[&installed.include, &installed.mpi.join("include")],
     );
-    let mut command = Command::new(installed.mpi.join("bin/mpirun"));
-    command
-        .args(["-np", "2"])
-        .arg(&installed.program)
-        .current_dir(&folder);
+    let mut command = Command::new(&installed.program);
+    command.current_dir(&folder);
     succeed(command.args(["-in", "scene.in", "-var", "rows", "20"]));
     let names = ["height_m", "strain", "stress_Pa", "coordination"];
     let rows = columns(&folder.join("scene.csv"), &names);
@@ -218,7 +217,7 @@ fn an_oedometer_exported_to_liggghts_is_the_one_that_runs_here() {
     let folder = exported(&scene, scratch.path(), "liggghts");
     build(&folder, &[&installed.source]);
     let law = Portable::read(&model(), None).unwrap();
-    let mut command = installed.parallel_command(&law, &folder, 2);
+    let mut command = installed.command(&law, &folder);
     command.current_dir(&folder);
     succeed(command.args(["-in", "scene.in", "-var", "rows", "20"]));
     let rows = columns(

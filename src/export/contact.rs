@@ -38,6 +38,8 @@ pub fn filled(template: &str, law: &Portable) -> String {
         ("@NAME@", law.identifier.clone()),
         ("@CLASS@", class(&law.identifier)),
         ("@DENSITY@", kernel::number(material.density)),
+        ("@YOUNG@", kernel::number(material.young_modulus)),
+        ("@POISSON@", kernel::number(material.poisson_ratio)),
         ("@SHEAR@", kernel::number(shear(law))),
         ("@RADIUS@", kernel::number(law.radius())),
         ("@SPEED@", kernel::number(impact.velocity)),

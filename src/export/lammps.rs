@@ -1,4 +1,5 @@
-//! Target `lammps`: a pair style and a fix for walls as a plugin of a released LAMMPS.
+//! Target `lammps`: a pair style and a fix for walls as a plugin of a released LAMMPS, and a granular sub-model for those
+//! who build it.
 
 use super::Artifact;
 use super::contact::{filled, headers};
@@ -9,6 +10,8 @@ const HISTORY: &str = include_str!("lammps/history.cpp");
 const PAIR: &str = include_str!("lammps/pair.cpp");
 const WALL: &str = include_str!("lammps/wall.cpp");
 const PLUGIN: &str = include_str!("lammps/plugin.cpp");
+const SUB_MODEL_HEADER: &str = include_str!("lammps/gran_sub_mod.h");
+const SUB_MODEL: &str = include_str!("lammps/gran_sub_mod.cpp");
 const BUILD: &str = include_str!("lammps/build.sh");
 const IMPACT: &str = include_str!("lammps/impact.in");
 
@@ -24,6 +27,8 @@ pub fn export(law: &Portable) -> Vec<Artifact> {
             (format!("{name}_pair.cpp"), PAIR),
             (format!("{name}_wall.cpp"), WALL),
             (format!("{name}_plugin.cpp"), PLUGIN),
+            (format!("gran_sub_mod_{name}.h"), SUB_MODEL_HEADER),
+            (format!("gran_sub_mod_{name}.cpp"), SUB_MODEL),
             ("build.sh".to_owned(), BUILD),
             ("impact.in".to_owned(), IMPACT),
         ]

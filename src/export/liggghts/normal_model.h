@@ -87,6 +87,9 @@ namespace ContactModels
       if (damping) effects.damping = -1.8257418583505538 * beta[sidata.itype][sidata.jtype]; // 2 sqrt(5/6)
       const double Fn = law_damped(&effects, &p, -sidata.vn, sidata.meff);
 
+      // Lever arms to the point of contact; a wall does not flatten.
+      sidata.cri = sidata.radi - p.flattening[0];
+      if (!sidata.is_wall) sidata.crj = sidata.radj - p.flattening[1];
       sidata.Fn = Fn;
       sidata.kn = p.force / sidata.deltan;
       sidata.kt = law_shear(&p, p.force, sidata.is_wall);

@@ -54,7 +54,15 @@ namespace ContactModels
       m.mass = sidata.meff;
       m.dt = update->dt;
 
-      const double slip[3] = {sidata.vtr1, sidata.vtr2, sidata.vtr3};
+      // The slip at the point of contact of this law; LIGGGHTS' own lies half the overlap inside a wall.
+      const double arms[2] = {sidata.cri, sidata.is_wall ? 0.0 : sidata.crj};
+      double slip[3];
+      for (int k = 0; k < 3; k++) {
+        m.velocity[k] = sidata.v_i[k] - sidata.v_j[k];
+        m.spins[0][k] = sidata.omega_i[k];
+        m.spins[1][k] = sidata.is_wall ? 0.0 : sidata.omega_j[k];
+      }
+      law_slip(&m, arms, slip);
       const double stiffness = sidata.Fn > 0.0 ? sidata.kt : 0.0;
       const double limit = effects.friction * sidata.Fn;
       double pull[3], couple[3];

@@ -1,0 +1,1 @@
+#include "granular_model.h"
