@@ -8,9 +8,11 @@ use impactlaw::export::native::mdr::Mdr;
 use impactlaw::export::native::thornton_ning::ThorntonNing;
 use impactlaw::export::native::{self, Code, Model};
 use impactlaw::export::portable::Portable;
-use impactlaw::law::Form;
+use impactlaw::law::file::HertzTable;
+use impactlaw::law::{Form, LawFile};
 use impactlaw::theory::hertz::Hertz;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 fn model(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -152,6 +154,39 @@ fn an_elastic_law_is_not_projected() {
     law.form = Form::Hertz;
     let error = native::files(&law).unwrap_err().to_string();
     assert!(error.contains("needs a law that yields"), "{error}");
+}
+
+#[test]
+fn everything_for_an_elastic_law_leaves_the_projections_out() {
+    let text = std::fs::read_to_string(model("sac305-solder.toml")).unwrap();
+    let file = LawFile {
+        form: Form::Hertz,
+        hertz: Some(HertzTable {
+            reason: "nothing yielded".to_owned(),
+            quality: Vec::new(),
+        }),
+        ..toml::from_str(&text).unwrap()
+    };
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(
+        folder.path().join("law.toml"),
+        toml::to_string(&file).unwrap(),
+    )
+    .unwrap();
+    let code = |to| {
+        Command::new(env!("CARGO_BIN_EXE_impactlaw"))
+            .args(["export", "law.toml", "--to", to, "-o", to])
+            .current_dir(folder.path())
+            .output()
+            .unwrap()
+            .status
+            .code()
+    };
+    assert_eq!(code("native"), Some(2));
+    assert!(!folder.path().join("native").exists());
+    assert_eq!(code("all"), Some(0));
+    assert!(folder.path().join("all/solder_ball.h").exists());
+    assert!(!folder.path().join("all/solder_ball_native.md").exists());
 }
 
 fn lines_hold_in(code: Code) {

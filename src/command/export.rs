@@ -10,6 +10,9 @@ use crate::law::Form;
 use crate::{Error, Result};
 use std::fmt::Write;
 
+/// Name of all targets together; those that cannot express the law are left out with a warning.
+const ALL: &str = "all";
+
 /// Run the verb.
 ///
 /// # Errors
@@ -19,8 +22,13 @@ pub fn run(args: &ExportArgs, context: &Context) -> Result<Verdict> {
     let form = args.form.as_deref().map(form).transpose()?;
     let law = Portable::read(&args.law, form)?;
     let mut artifacts: Vec<Artifact> = Vec::new();
+    let everything = args.to.iter().any(|name| name == ALL);
     for target in &targets {
-        artifacts.extend(target.export(&law)?);
+        match target.export(&law) {
+            Ok(files) => artifacts.extend(files),
+            Err(error) if everything => tracing::warn!("left out: {error}"),
+            Err(error) => return Err(error),
+        }
     }
     if !targets.is_empty() {
         let folder = output_folder(args.out.as_deref(), &law.name)?;
@@ -57,7 +65,7 @@ fn targets(names: &[String], check: bool) -> Result<Vec<Target>> {
     let mut targets = Vec::new();
     for name in names {
         match name.as_str() {
-            "all" => targets.extend(Target::ALL),
+            ALL => targets.extend(Target::ALL),
             name => targets.push(name.parse()?),
         }
     }
