@@ -10,6 +10,7 @@ pub mod canvas;
 pub mod colours;
 pub mod compose;
 pub mod contact_row;
+mod contact_state;
 pub mod contacts;
 pub mod damping;
 pub mod dump;
