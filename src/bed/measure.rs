@@ -236,8 +236,10 @@ impl<C: ContactLaw> Bed<C> {
         }
     }
 
+    /// A free body swings on all its contacts at once, each grain on its own contact against the body's mass.
     fn survey_surfaces(&self, packing: &mut Packing) {
         let valid_to = self.surfaces.valid_to();
+        let mut carried = vec![0.0; self.machine.stations.len()];
         for held in self.surfaces.all().filter(|held| held.patch.push.touches()) {
             let squeeze = held.squeeze(&self.grains);
             let flattening = squeeze.overlap / squeeze.radii[0];
@@ -245,10 +247,14 @@ impl<C: ContactLaw> Bed<C> {
             packing.max_overlap_ratio = packing.max_overlap_ratio.max(flattening);
             packing.beyond_validity += usize::from(flattening > valid_to);
             let stiffness = self.law.softening() * held.stiffest(&self.grains);
-            let inverse_mass = self.grains.motions[held.grain].inverse_mass;
+            let body = self.machine.stations[held.surface].inverse_mass;
+            let inverse_mass = self.grains.motions[held.grain].inverse_mass + body;
             packing.contact_time = packing
                 .contact_time
                 .min(PI / (stiffness * inverse_mass).sqrt());
+            carried[held.surface] += stiffness * body;
         }
+        let fastest = carried.into_iter().fold(0.0, f64::max);
+        packing.contact_time = packing.contact_time.min(PI / f64::sqrt(fastest));
     }
 }

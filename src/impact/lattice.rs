@@ -109,8 +109,19 @@ mod tests {
     fn a_quarter_and_a_half_of_the_cubic_lattice_hold_their_shares() {
         let volume = |geometry| -> f64 { ball(50.0, geometry).iter().map(|p| p.volume).sum() };
         let quarter = volume(Geometry::Quarter);
-        assert!((quarter / (PI / 3.0) - 1.0).abs() < 1e-3, "{quarter}");
-        assert!((volume(Geometry::Half) / quarter - 2.0).abs() < 1e-12);
+        // column by column: of the points half a spacing and on above the equator, those below the sphere
+        let half = |i: i32| f64::from(i) + 0.5;
+        let column = |(i, j): (i32, i32)| (625.0 - half(i).powi(2) - half(j).powi(2)).max(0.0);
+        let places = (0..25).flat_map(|i| (0..25).map(move |j| (i, j)));
+        let above: f64 = places
+            .map(|place| (column(place).sqrt() + 0.5).floor())
+            .sum();
+        let exact = 2.0 * above * 0.04f64.powi(3);
+        assert!((quarter / exact - 1.0).abs() < 1e-12, "{quarter} {exact}");
+        // the staircase of 50 points a diameter
+        assert!((quarter / (PI / 3.0) - 1.0).abs() < 1.0 / 50.0, "{quarter}");
+        let count = |geometry| ball(50.0, geometry).len();
+        assert_eq!(count(Geometry::Half), 2 * count(Geometry::Quarter));
         for geometry in [Geometry::Quarter, Geometry::Half] {
             for [x, y, z] in outermost_ball(50.0, geometry) {
                 let distance = (x * x + y * y + (z - 1.0) * (z - 1.0)).sqrt();

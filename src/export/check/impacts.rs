@@ -1,7 +1,7 @@
 //! Impacts of the reference run in another code by its example input, and held against the law's own figures.
 
-use super::Agreement;
 use super::process::{Ran, run};
+use super::{Agreement, largest};
 use crate::export::portable::Portable;
 use crate::export::reference::Impact;
 use crate::export::{Artifact, describe};
@@ -73,10 +73,12 @@ pub(super) fn hold(
             (found.max_force, f.max_force),
             (found.max_overlap, f.max_displacement),
         ];
-        let deviation = pairs
-            .iter()
-            .map(|(found, expected)| (found / expected - 1.0).abs())
-            .fold(0.0, f64::max);
+        // a NaN must not count as agreement
+        let deviation = largest(
+            pairs
+                .iter()
+                .map(|(found, expected)| (found / expected - 1.0).abs()),
+        );
         agreements.push(Agreement {
             subject: format!(
                 "{}, {} m/s: e, F*, delta*",
