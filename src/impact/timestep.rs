@@ -12,15 +12,20 @@ use crate::tape::keep_fields;
 const SAFETY: f64 = 0.85;
 /// Size of the probing displacement (lengths are in particle radii).
 const PROBE: f64 = 1e-8;
-/// Share of the start vector that is mixed into the last mode before it is iterated again. A mode that sits in a few cells
-/// falls below rounding elsewhere ($u + 10^{-8} m = u$), and from there on the iteration is blind: cells squeezed later than
-/// those would never be found.
-const STIRRED: f64 = 1e-3;
+/// Iterations of a search from an irregular start vector that precedes every estimate: after k of them a place stands out
+/// by the power 2k of its own frequency, wherever it is.
+const SEARCH: usize = 2;
+/// Share of what the search found that is mixed into the mode found last. That mode alone is blind: it sits in a few cells,
+/// falls below rounding elsewhere ($u + 10^{-8} m = u$), and cells that are squeezed later would be found too late or never.
+const FOUND: f64 = 0.5;
 
 /// Estimator of the largest frequency, warm-started from its last answer.
 #[derive(Debug, Clone)]
 pub struct StabilityLimit<S: Space> {
+    /// The mode found last, and before it.
     mode: Vec<S::Vector>,
+    last: Vec<S::Vector>,
+    /// Forces at rest, displacements that probe and their forces.
     rest: Vec<S::Vector>,
     moved: Vec<S::Vector>,
     force: Vec<S::Vector>,
@@ -29,11 +34,12 @@ pub struct StabilityLimit<S: Space> {
 keep_fields!(impl [S: Space] StabilityLimit<S>: mode);
 
 impl<S: Space> StabilityLimit<S> {
-    /// Estimator for `nodes` nodes; the start vector alternates in sign, near the highest mode.
+    /// Estimator for `nodes` nodes.
     pub fn new(nodes: usize) -> Self {
         let mut mode = vec![S::Vector::default(); nodes];
-        stir::<S>(&mut mode, 1.0);
+        stir::<S>(&mut mode);
         StabilityLimit {
+            last: mode.clone(),
             mode,
             rest: vec![S::Vector::default(); nodes],
             moved: vec![S::Vector::default(); nodes],
@@ -50,19 +56,15 @@ impl<S: Space> StabilityLimit<S> {
         iterations: usize,
     ) -> f64 {
         points.sweep(Purpose::Trial, u, &mut self.rest);
-        let stirred = STIRRED * largest_component(&self.mode);
-        stir::<S>(&mut self.mode, stirred);
+        std::mem::swap(&mut self.mode, &mut self.last);
+        stir::<S>(&mut self.mode);
+        for _ in 0..SEARCH {
+            self.iterate(points, u, recip_mass);
+        }
+        self.mix();
         let mut squared = 0.0f64;
         for _ in 0..iterations {
-            let scale = 1.0 / largest_component(&self.mode);
-            for ((moved, mode), u) in self.moved.iter_mut().zip(&mut self.mode).zip(u) {
-                for (k, y) in moved.as_mut().iter_mut().enumerate() {
-                    mode.as_mut()[k] *= scale;
-                    *y = u.as_ref()[k] + PROBE * mode.as_ref()[k];
-                }
-            }
-            points.sweep(Purpose::Trial, &self.moved, &mut self.force);
-            squared = self.advance(recip_mass);
+            squared = self.iterate(points, u, recip_mass);
         }
         SAFETY * 2.0 / squared.sqrt()
     }
@@ -94,6 +96,34 @@ impl<S: Space> StabilityLimit<S> {
         energy.iter().map(|e| e / most).collect()
     }
 
+    /// The mode found last, and a share of what the search found.
+    fn mix(&mut self) {
+        let (found, known) = (largest_component(&self.mode), largest_component(&self.last));
+        for (mode, last) in self.mode.iter_mut().zip(&self.last) {
+            for (x, last) in mode.as_mut().iter_mut().zip(last.as_ref()) {
+                *x = last / known + FOUND * *x / found;
+            }
+        }
+    }
+
+    /// One power iteration at displacements `u`, whose forces are in `rest`.
+    fn iterate<M: Constitutive<S>, const N: usize>(
+        &mut self,
+        points: &mut Points<S, M, N>,
+        u: &[S::Vector],
+        recip_mass: &[S::Vector],
+    ) -> f64 {
+        let scale = 1.0 / largest_component(&self.mode);
+        for ((moved, mode), u) in self.moved.iter_mut().zip(&mut self.mode).zip(u) {
+            for (k, y) in moved.as_mut().iter_mut().enumerate() {
+                mode.as_mut()[k] *= scale;
+                *y = u.as_ref()[k] + PROBE * mode.as_ref()[k];
+            }
+        }
+        points.sweep(Purpose::Trial, &self.moved, &mut self.force);
+        self.advance(recip_mass)
+    }
+
     /// `mode <- M^-1 K mode`; returns the growth of its length in the mass metric, an estimate of $\omega^2$.
     fn advance(&mut self, recip_mass: &[S::Vector]) -> f64 {
         let (mut new, mut old) = (0.0, 0.0);
@@ -112,11 +142,11 @@ impl<S: Space> StabilityLimit<S> {
     }
 }
 
-/// Add a fixed irregular pattern of +-`size`: no mode is orthogonal to it.
-fn stir<S: Space>(mode: &mut [S::Vector], size: f64) {
+/// A fixed irregular pattern of +-1, near the highest mode: no mode is orthogonal to it.
+fn stir<S: Space>(mode: &mut [S::Vector]) {
     for (n, mode) in mode.iter_mut().enumerate() {
         for (k, x) in mode.as_mut().iter_mut().enumerate() {
-            *x += if (n * 7 + k * 3) % 5 < 2 { size } else { -size };
+            *x = if (n * 7 + k * 3) % 5 < 2 { 1.0 } else { -1.0 };
         }
     }
 }
