@@ -2,9 +2,9 @@
 
 mod codes;
 
-use codes::{assert_close, build, skipped, succeed};
-use impactlaw::export::check::{lammps, liggghts};
-use impactlaw::export::portable::Portable;
+use codes::exported::Installed;
+use codes::{assert_close, solder, succeed};
+use impactlaw::export::scene::Code;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -185,22 +185,23 @@ fn assert_same(theirs: &Curve, ours: &Curve, code: &str) {
     );
 }
 
+/// The scene, and the folder of its run in another code; none where that is not installed.
+fn run(code: Code, name: &str, scratch: &Path) -> Option<(PathBuf, PathBuf)> {
+    let installed = Installed::find(code)?;
+    let scene = scene(scratch);
+    let folder = exported(&scene, scratch, name);
+    installed.build(&folder);
+    let mut command = installed.command(&solder(None), &folder, 1);
+    succeed(command.args(["-in", "scene.in", "-var", "rows", "20"]));
+    Some((scene, folder))
+}
+
 #[test]
 fn an_oedometer_exported_to_lammps_is_the_one_that_runs_here() {
-    let installed = match lammps::Installed::find() {
-        Ok(installed) => installed,
-        Err(why) => return skipped("LAMMPS", &why),
-    };
     let scratch = tempfile::tempdir().unwrap();
-    let scene = scene(scratch.path());
-    let folder = exported(&scene, scratch.path(), "lammps");
-    build(
-        &folder,
-        &[&installed.include, &installed.mpi.join("include")],
-    );
-    let mut command = Command::new(&installed.program);
-    command.current_dir(&folder);
-    succeed(command.args(["-in", "scene.in", "-var", "rows", "20"]));
+    let Some((scene, folder)) = run(Code::Lammps, "lammps", scratch.path()) else {
+        return;
+    };
     let names = ["height_m", "strain", "stress_Pa", "coordination"];
     let rows = columns(&folder.join("scene.csv"), &names);
     let theirs = curve(&rows, |row| rows[row][3]);
@@ -209,18 +210,10 @@ fn an_oedometer_exported_to_lammps_is_the_one_that_runs_here() {
 
 #[test]
 fn an_oedometer_exported_to_liggghts_is_the_one_that_runs_here() {
-    let installed = match liggghts::Installed::find() {
-        Ok(installed) => installed,
-        Err(why) => return skipped("LIGGGHTS", &why),
-    };
     let scratch = tempfile::tempdir().unwrap();
-    let scene = scene(scratch.path());
-    let folder = exported(&scene, scratch.path(), "liggghts");
-    build(&folder, &[&installed.source]);
-    let law = Portable::read(&model(), None).unwrap();
-    let mut command = installed.command(&law, &folder);
-    command.current_dir(&folder);
-    succeed(command.args(["-in", "scene.in", "-var", "rows", "20"]));
+    let Some((scene, folder)) = run(Code::Liggghts, "liggghts", scratch.path()) else {
+        return;
+    };
     let rows = columns(
         &folder.join("scene.csv"),
         &["height_m", "strain", "stress_Pa"],

@@ -2,11 +2,12 @@
 
 #![allow(dead_code, reason = "each test binary uses its part")]
 
+pub mod exported;
+
 use impactlaw::export::Artifact;
 use impactlaw::export::check::{Check, Finding, run};
 use impactlaw::export::portable::Portable;
 use impactlaw::law::Form;
-use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -30,7 +31,13 @@ pub fn laws() -> Vec<Portable> {
         .collect()
 }
 
-/// A law of the repository for grains of 1 mm as soft as those of `tests/data/bed10k`: same E/Y and Poisson's ratio.
+/// The law of solder balls in one of its forms.
+pub fn solder(form: Option<Form>) -> Portable {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("models/sac305-solder.toml");
+    Portable::read(&file, form).unwrap()
+}
+
+/// A law of the repository for grains of 1 mm as soft as those of the settled packing: same E/Y and Poisson's ratio.
 pub fn soft_law() -> Portable {
     let folder = tempfile::tempdir().unwrap();
     let original =
@@ -111,31 +118,6 @@ pub fn rows(output: &str, columns: usize) -> Vec<Vec<f64>> {
     output.lines().filter_map(row).collect()
 }
 
-/// Writes the packing of `tests/data/bed10k` as a data file that LAMMPS and LIGGGHTS read.
-pub fn put_packing(folder: &Path) {
-    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/bed10k/centres.u32");
-    let bytes = std::fs::read(data).unwrap();
-    let numbers = bytes
-        .chunks_exact(4)
-        .map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]));
-    let metres: Vec<f64> = numbers.map(|n| f64::from(n) * 2e-11).collect();
-    let mut text = format!(
-        "settled packing\n\n{} atoms\n1 atom types\n\n0 0.046 xlo xhi\n0 0.046 ylo yhi\n0 0.12 zlo zhi\n\nAtoms\n\n",
-        metres.len() / 3
-    );
-    for (index, x) in metres.chunks_exact(3).enumerate() {
-        let _ = writeln!(
-            text,
-            "{} 1 0.002 2500 {:.12} {:.12} {:.12}",
-            index + 1,
-            x[0],
-            x[1],
-            x[2]
-        );
-    }
-    std::fs::write(folder.join("bed.data"), text).unwrap();
-}
-
 /// Runs a check for every law; true unless the code is not installed, which is said loudly.
 pub fn every_law_agrees(check: &dyn Check) -> bool {
     for law in laws() {
@@ -172,38 +154,5 @@ pub fn assert_close(a: f64, b: f64, allowed: f64, what: &str) {
     assert!(
         deviation <= allowed,
         "{what}: {a} and {b}, relative deviation {deviation:e}, allowed {allowed:e}"
-    );
-}
-
-/// That two runs of the packing are one bed: equal while rounding has not grown, alike in the mean after 2000 steps. A
-/// bed is chaotic: a grain displaced by 1e-15 m changes the energies' third digit within 200 steps.
-pub fn same_bed(one: &[Vec<f64>], two: &[Vec<f64>]) {
-    let (early, late) = (1, one.len() - 1);
-    assert_eq!((one[early][0], one[late][0]), (50.0, 2000.0));
-    assert_close(
-        one[early][1],
-        two[early][1],
-        1e-8,
-        "energy of motion after 50 steps",
-    );
-    assert_close(
-        one[early][2],
-        two[early][2],
-        1e-8,
-        "energy of spin after 50 steps",
-    );
-    assert_eq!(one[early][3], two[early][3], "contacts after 50 steps");
-    assert!(one[late][3] > 40_000.0, "grains touch: {:?}", one[late]);
-    assert_close(
-        one[late][1],
-        two[late][1],
-        0.1,
-        "energy of motion after 2000 steps",
-    );
-    assert_close(
-        one[late][3],
-        two[late][3],
-        0.005,
-        "contacts after 2000 steps",
     );
 }

@@ -1,0 +1,112 @@
+//! An exported law built in a folder of its own, and inputs run with it on any number of processors.
+
+use super::{build, put_input, rows, skipped, succeed, write};
+use impactlaw::export::check::{lammps as check_lammps, liggghts as check_liggghts};
+use impactlaw::export::portable::Portable;
+use impactlaw::export::scene::Code;
+use impactlaw::export::{Artifact, lammps, liggghts};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// A code that is installed.
+pub enum Installed {
+    Lammps(check_lammps::Installed),
+    Liggghts(check_liggghts::Installed),
+}
+
+impl Installed {
+    /// None, said loudly, where the code is not installed.
+    pub fn find(code: Code) -> Option<Self> {
+        match code {
+            Code::Lammps => check_lammps::Installed::find()
+                .map_err(|why| skipped("LAMMPS", &why))
+                .map(Installed::Lammps)
+                .ok(),
+            Code::Liggghts => check_liggghts::Installed::find()
+                .map_err(|why| skipped("LIGGGHTS", &why))
+                .map(Installed::Liggghts)
+                .ok(),
+        }
+    }
+
+    fn files(&self, law: &Portable) -> Vec<Artifact> {
+        match self {
+            Installed::Lammps(_) => lammps::export(law),
+            Installed::Liggghts(_) => liggghts::export(law),
+        }
+    }
+
+    /// Builds the exported law in `folder`.
+    pub fn build(&self, folder: &Path) {
+        match self {
+            Installed::Lammps(code) => build(folder, &[&code.include, &code.mpi.join("include")]),
+            Installed::Liggghts(code) => build(folder, &[&code.source]),
+        }
+    }
+
+    /// The program with the law of `folder` on so many processors.
+    pub fn command(&self, law: &Portable, folder: &Path, ranks: usize) -> Command {
+        let mut command = match self {
+            Installed::Lammps(code) => {
+                let mut command = Command::new(code.mpi.join("bin/mpirun"));
+                command.arg("-np").arg(ranks.to_string());
+                command.arg(&code.program);
+                command
+            }
+            Installed::Liggghts(code) if ranks == 1 => code.command(law, folder),
+            Installed::Liggghts(code) => code.parallel_command(law, folder, ranks),
+        };
+        command.current_dir(folder);
+        command
+    }
+
+    /// Name of the inputs of `tests/data/codes` for this code.
+    fn input(&self, kind: &str) -> String {
+        match self {
+            Installed::Lammps(_) => format!("{kind}_lammps.in"),
+            Installed::Liggghts(_) => format!("{kind}_liggghts.in"),
+        }
+    }
+}
+
+/// An exported law, built.
+pub struct Exported {
+    pub law: Portable,
+    pub folder: PathBuf,
+    installed: Installed,
+    _scratch: tempfile::TempDir,
+}
+
+impl Exported {
+    /// None, said loudly, where the code is not installed.
+    pub fn of(law: Portable, code: Code) -> Option<Self> {
+        let installed = Installed::find(code)?;
+        let scratch = tempfile::tempdir().unwrap();
+        let folder = write(&installed.files(&law), scratch.path());
+        installed.build(&folder);
+        Some(Exported {
+            law,
+            folder,
+            installed,
+            _scratch: scratch,
+        })
+    }
+
+    /// Rows of `columns` numbers printed by the input `kind` of `tests/data/codes` on so many processors.
+    pub fn run(
+        &self,
+        kind: &str,
+        ranks: usize,
+        variables: &[(&str, &str)],
+        columns: usize,
+    ) -> Vec<Vec<f64>> {
+        let input = self.installed.input(kind);
+        put_input(&input, &self.law, &self.folder);
+        let mut command = self.installed.command(&self.law, &self.folder, ranks);
+        command.arg("-in").arg(input);
+        for (name, value) in variables {
+            command.args(["-var", name, value]);
+        }
+        rows(&succeed(&mut command), columns)
+    }
+}
