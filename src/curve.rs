@@ -89,7 +89,7 @@ pub struct Summary {
     pub eroded_volume_ratio: f64,
     /// Material points.
     pub points: usize,
-    /// Time steps.
+    /// Time steps; where cells take steps of their own, the mean over all points.
     pub steps: u64,
     /// Wall time, s.
     #[serde(deserialize_with = "number_or_null")]

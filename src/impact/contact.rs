@@ -70,12 +70,23 @@ impl<S: Space, const N: usize> Keep for Contact<S, N> {
 }
 
 impl<S: Space, const N: usize> Wall<S> for Contact<S, N> {
-    fn refresh(&mut self, u: &[S::Vector], speed: f64, horizon: f64) {
+    fn refresh(
+        &mut self,
+        u: &[S::Vector],
+        speed: f64,
+        horizon: f64,
+        among: &dyn Fn(usize) -> bool,
+    ) {
         self.candidates.clear();
         for c in 0..self.points.len() {
             let gap = self.points[c].height + self.at(c, u, S::NORMAL);
-            if gap < speed * horizon || self.points[c].active {
+            let near = gap < speed * horizon || self.points[c].active;
+            let node = self.points[c].node;
+            if near && self.offsets.iter().any(|offset| among(node + offset)) {
                 self.candidates.push(c);
+            } else {
+                self.points[c].impulse = 0.0;
+                self.points[c].active = false;
             }
         }
     }

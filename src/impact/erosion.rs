@@ -8,7 +8,7 @@
 //! Element erosion is common in explicit finite elements (e.g. Belytschko and Lin 1987); weakening first keeps the sheet
 //! together.
 
-use crate::impact::kernel::{Points, Purpose};
+use crate::impact::kernel::{Part, Points, Purpose};
 use crate::impact::timestep::StabilityLimit;
 use crate::material::stress::Constitutive;
 use crate::space::Space;
@@ -26,7 +26,7 @@ const MOST: f64 = 0.5;
 const AFTER: usize = 20;
 const FIRST: usize = 60;
 /// Power iterations of a refresh, which starts from the last mode.
-const REFRESH: usize = 3;
+pub(super) const REFRESH: usize = 3;
 
 /// What erosion did so far.
 #[derive(Debug, Clone, Default)]
@@ -57,6 +57,16 @@ impl Erosion {
         self.least > 0.0
     }
 
+    /// Stable step of the undeformed body; 0 before it was asked for.
+    pub fn first(&self) -> f64 {
+        self.first
+    }
+
+    /// Shortest stable step that is accepted.
+    pub fn least_step(&self) -> f64 {
+        self.least * self.first
+    }
+
     /// Elastic energy that went with the stress of weakened cells.
     pub fn energy(&self) -> f64 {
         self.energy
@@ -67,7 +77,7 @@ impl Erosion {
         self.volume
     }
 
-    /// Stable step of the present configuration, after weakening what would make it too short.
+    /// Stable step of a part of the cells as they are, after weakening what would make it too short.
     ///
     /// # Errors
     /// The reason to stop, when half of the body has lost its strength.
@@ -75,22 +85,23 @@ impl Erosion {
         &mut self,
         limit: &mut StabilityLimit<S>,
         points: &mut Points<S, M, N>,
+        part: Part,
         u: &[S::Vector],
         recip_mass: &[S::Vector],
     ) -> Result<f64, String> {
         if self.first == 0.0 {
-            self.first = limit.estimate(points, u, recip_mass, FIRST);
+            self.first = limit.estimate(points, part, u, recip_mass, FIRST);
             return Ok(self.first);
         }
-        let mut dt = limit.estimate(points, u, recip_mass, REFRESH);
-        while dt < self.least * self.first {
-            let shares = limit.energy_shares(points, u);
+        let mut dt = limit.estimate(points, part, u, recip_mass, REFRESH);
+        while dt < self.least_step() {
+            let shares = limit.energy_shares(points, part, u);
             let weakened: Vec<f64> = shares
                 .iter()
                 .map(|s| if *s > TAKES_PART { WEAKENED } else { 1.0 })
                 .collect();
-            self.weaken(points, u, &weakened)?;
-            dt = limit.estimate(points, u, recip_mass, AFTER);
+            self.weaken(points, part, u, &weakened)?;
+            dt = limit.estimate(points, part, u, recip_mass, AFTER);
         }
         Ok(dt)
     }
@@ -104,26 +115,27 @@ impl Erosion {
         points: &mut Points<S, M, N>,
         u: &[S::Vector],
     ) -> Result<(), String> {
-        let left = points.one_by_one(Purpose::Trial, u, |sweep, _| {
+        let left = points.one_by_one(Part::All, Purpose::Trial, u, |sweep, _| {
             if sweep.least_j > 0.0 { 1.0 } else { 0.0 }
         });
-        self.weaken(points, u, &left)
+        self.weaken(points, Part::All, u, &left)
     }
 
-    /// Let every cell carry the share `left` of what it carries now.
+    /// Let every cell of a part carry the share `left` of what it carries now.
     fn weaken<S: Space, M: Constitutive<S>, const N: usize>(
         &mut self,
         points: &mut Points<S, M, N>,
+        part: Part,
         u: &[S::Vector],
         left: &[f64],
     ) -> Result<(), String> {
-        let energies = points.one_by_one(Purpose::Audit, u, |sweep, _| sweep.elastic);
+        let energies = points.one_by_one(part, Purpose::Audit, u, |sweep, _| sweep.elastic);
         for (energy, left) in energies.iter().zip(left) {
             if energy.is_finite() {
                 self.energy += (1.0 - left) * energy;
             }
         }
-        self.volume += points.weaken(left, WEAKEST);
+        self.volume += points.weaken(part, left, WEAKEST);
         if self.volume > MOST * points.volume() {
             let share = 100.0 * MOST;
             return Err(format!("more than {share} % of the body lost its strength"));

@@ -14,6 +14,7 @@ mod erosion;
 pub mod homes;
 pub mod kernel;
 pub mod lattice;
+mod local;
 pub mod patch;
 pub mod record;
 pub mod remap;

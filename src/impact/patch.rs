@@ -332,11 +332,13 @@ impl<F: Friction, const N: usize> Patch<F, N> {
 }
 
 impl<F: Friction, const N: usize> Wall<Solid> for Patch<F, N> {
-    fn refresh(&mut self, u: &[[f64; 3]], speed: f64, horizon: f64) {
+    fn refresh(&mut self, u: &[[f64; 3]], speed: f64, horizon: f64, among: &dyn Fn(usize) -> bool) {
         self.candidates.clear();
         for c in 0..self.count() {
             let gap = self.places[c][2] + self.at(c, u, 2);
-            if gap < speed * horizon || self.impulses[c][2] > 0.0 {
+            let near = gap < speed * horizon || self.impulses[c][2] > 0.0;
+            let node = self.nodes[c];
+            if near && self.offsets.iter().any(|offset| among(node + offset)) {
                 self.candidates.push(c as u32);
             }
         }

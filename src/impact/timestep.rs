@@ -3,7 +3,7 @@
 //! The stiffness acts by finite difference of the elastic (frozen-state) internal force, so it is the tangent of the
 //! deformed body whatever the grid or material. Plastic flow only softens it.
 
-use crate::impact::kernel::{Points, Purpose, Sweep};
+use crate::impact::kernel::{Part, Points, Purpose, Sweep};
 use crate::material::stress::Constitutive;
 use crate::space::Space;
 use crate::tape::keep_fields;
@@ -47,32 +47,37 @@ impl<S: Space> StabilityLimit<S> {
         }
     }
 
-    /// Stable time step at displacements `u` after `iterations` power iterations.
+    /// Stable time step of a part of the cells at displacements `u` after `iterations` power iterations.
     pub fn estimate<M: Constitutive<S>, const N: usize>(
         &mut self,
         points: &mut Points<S, M, N>,
+        part: Part,
         u: &[S::Vector],
         recip_mass: &[S::Vector],
         iterations: usize,
     ) -> f64 {
-        points.sweep(Purpose::Trial, u, &mut self.rest);
+        // sweeps over a level leave the entries of other nodes as they are
+        self.rest.fill(S::Vector::default());
+        self.force.fill(S::Vector::default());
+        points.sweep_part(part, Purpose::Trial, u, &mut self.rest);
         std::mem::swap(&mut self.mode, &mut self.last);
         stir::<S>(&mut self.mode);
         for _ in 0..SEARCH {
-            self.iterate(points, u, recip_mass);
+            self.iterate(points, part, u, recip_mass);
         }
         self.mix();
         let mut squared = 0.0f64;
         for _ in 0..iterations {
-            squared = self.iterate(points, u, recip_mass);
+            squared = self.iterate(points, part, u, recip_mass);
         }
         SAFETY * 2.0 / squared.sqrt()
     }
 
-    /// Energy of each cell in the fastest mode found, over the largest of them.
+    /// Energy of each cell of a part in the fastest mode found, over the largest of them.
     pub fn energy_shares<M: Constitutive<S>, const N: usize>(
         &mut self,
         points: &mut Points<S, M, N>,
+        part: Part,
         u: &[S::Vector],
     ) -> Vec<f64> {
         let scale = PROBE / largest_component(&self.mode);
@@ -89,8 +94,8 @@ impl<S: Space> StabilityLimit<S> {
             };
             forces.iter().map(product).sum()
         };
-        let rest = points.one_by_one(Purpose::Trial, u, power);
-        let moved = points.one_by_one(Purpose::Trial, &self.moved, power);
+        let rest = points.one_by_one(part, Purpose::Trial, u, power);
+        let moved = points.one_by_one(part, Purpose::Trial, &self.moved, power);
         let energy: Vec<f64> = rest.iter().zip(&moved).map(|(a, b)| a - b).collect();
         let most = energy.iter().fold(f64::MIN_POSITIVE, |a, e| a.max(*e));
         energy.iter().map(|e| e / most).collect()
@@ -110,6 +115,7 @@ impl<S: Space> StabilityLimit<S> {
     fn iterate<M: Constitutive<S>, const N: usize>(
         &mut self,
         points: &mut Points<S, M, N>,
+        part: Part,
         u: &[S::Vector],
         recip_mass: &[S::Vector],
     ) -> f64 {
@@ -120,7 +126,7 @@ impl<S: Space> StabilityLimit<S> {
                 *y = u.as_ref()[k] + PROBE * mode.as_ref()[k];
             }
         }
-        points.sweep(Purpose::Trial, &self.moved, &mut self.force);
+        points.sweep_part(part, Purpose::Trial, &self.moved, &mut self.force);
         self.advance(recip_mass)
     }
 

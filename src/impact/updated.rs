@@ -271,7 +271,7 @@ impl<'a, M: Constitutive<Axisymmetric>, const P: usize, const N: usize> Updated<
             return;
         }
         contact.couple(&self.recip_mass);
-        contact.refresh(&self.still, 2.0 * self.speed, 4.0 * self.dt);
+        contact.refresh(&self.still, 2.0 * self.speed, 4.0 * self.dt, &|_| true);
         let touch = contact.solve(
             self.dt,
             &self.still,

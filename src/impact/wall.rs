@@ -20,8 +20,9 @@ pub struct Touch {
 
 /// What a run asks of its contact with the wall.
 pub trait Wall<S: Space>: Clone + Keep {
-    /// Points that could touch within `horizon`, if nothing moves faster than `speed`; call now and then.
-    fn refresh(&mut self, u: &[S::Vector], speed: f64, horizon: f64);
+    /// Points that could touch within `horizon`, if nothing moves faster than `speed`, among those that a node for which
+    /// `among` holds carries; call now and then.
+    fn refresh(&mut self, u: &[S::Vector], speed: f64, horizon: f64, among: &dyn Fn(usize) -> bool);
     /// Solve one step: `old` are the velocities before the forces, `v` the free velocities, corrected in place.
     fn solve(
         &mut self,

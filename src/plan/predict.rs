@@ -63,6 +63,8 @@ pub fn with_prediction(mut plan: Plan, material: &Material) -> Plan {
 pub fn with_cells(mut plan: Plan, share: f64, material: &Material) -> Plan {
     plan.grid.fine *= share;
     plan.grid.coarse *= share;
+    // smaller cells are squeezed further
+    plan.grid.remedies.least_step *= share.min(1.0);
     with_prediction(plan, material)
 }
 

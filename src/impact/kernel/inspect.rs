@@ -1,6 +1,7 @@
 //! What is done with points outside the hot loop: looked at, kept, swept cell by cell, weakened.
 
-use super::{Point, Points, Purpose, Sweep};
+use super::part::Level;
+use super::{Cell, Part, Point, Points, Purpose, Sweep};
 use crate::lanes::{Lanes, WIDTH};
 use crate::material::stress::Constitutive;
 use crate::space::{Space, Symmetric};
@@ -26,19 +27,36 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Keep for Points<S, M, N> {
         self.states.as_slice().save(tape);
         let left: Vec<(u32, f64)> = self.cells.iter().map(|c| (c.first, c.strength)).collect();
         left.save(tape);
+        let ends: Vec<usize> = self.levels.iter().map(|l| l.end).collect();
+        ends.save(tape);
     }
 
     fn load(&mut self, tape: &mut Tape) -> Option<()> {
         self.states.as_mut_slice().load(tape)?;
         let mut left: Vec<(u32, f64)> = Vec::new();
         left.load(tape)?;
-        let mut left = left.into_iter().peekable();
-        self.cells.retain_mut(|cell| {
-            let stays = left.next_if(|(first, _)| *first == cell.first);
-            cell.strength = stays.map_or(0.0, |(_, strength)| strength);
-            stays.is_some()
-        });
-        left.next().is_none().then_some(())
+        let kept = |(first, strength): &(u32, f64)| {
+            let place = self.cells.binary_search_by_key(first, |c| c.first).ok()?;
+            let cell = self.cells[place];
+            Some(Cell {
+                strength: *strength,
+                ..cell
+            })
+        };
+        // a run that is taken up has its cells in the order in which they were laid
+        self.cells = left.iter().map(kept).collect::<Option<_>>()?;
+        let mut ends: Vec<usize> = Vec::new();
+        ends.load(tape)?;
+        if !ends.is_sorted() || ends.last() != Some(&self.cells.len()) {
+            return None;
+        }
+        let level = |end| Level {
+            end,
+            ..Level::default()
+        };
+        self.levels = ends.into_iter().map(level).collect();
+        (0..self.levels.len()).for_each(|level| self.list_nodes(level));
+        Some(())
     }
 }
 
@@ -92,9 +110,10 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
         x
     }
 
-    /// What `seen` makes of a sweep over each cell alone and of the forces on its nodes, in the order of the cells.
+    /// What `seen` makes of a sweep over each cell of a part alone and of the forces on its nodes, in the order of the cells.
     pub fn one_by_one<T>(
         &mut self,
+        part: Part,
         purpose: Purpose,
         u: &[S::Vector],
         mut seen: impl FnMut(&Sweep, &[(usize, S::Vector)]) -> T,
@@ -103,7 +122,7 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
         self.partial
             .resize(u.len() * S::DIRECTIONS, Lanes::default());
         let mut answers = Vec::with_capacity(self.cells.len());
-        for index in 0..self.cells.len() {
+        for index in self.range(part) {
             let sweep = self.pass(index..index + 1, purpose, u);
             let first = self.cells[index].node as usize;
             let forces = self.offsets.map(|offset| {
@@ -120,18 +139,29 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
         answers
     }
 
-    /// Let each cell carry the share `left` of what it carries now; a cell with less than `least` of its strength is taken
-    /// out (its mass stays on the nodes). Returns the volume that lost its strength in this.
-    pub fn weaken(&mut self, left: &[f64], least: f64) -> f64 {
+    /// Let each cell of a part carry the share `left` of what it carries now; a cell with less than `least` of its strength
+    /// is taken out (its mass stays on the nodes). Returns the volume that lost its strength in this.
+    pub fn weaken(&mut self, part: Part, left: &[f64], least: f64) -> f64 {
         let mut lost = 0.0;
-        let mut shares = left.iter();
+        let mut index = 0;
+        let range = self.range(part);
+        let mut gone = Vec::new();
         self.cells.retain_mut(|cell| {
             let before = cell.strength;
-            cell.strength *= shares.next().copied().unwrap_or(1.0);
+            if range.contains(&index) {
+                cell.strength *= left[index - range.start];
+            }
             let stays = cell.strength >= least;
             lost += cell.volume * (before - if stays { cell.strength } else { 0.0 });
+            if !stays {
+                gone.push(index);
+            }
+            index += 1;
             stays
         });
+        for level in &mut self.levels {
+            level.end -= gone.partition_point(|index| *index < level.end);
+        }
         lost
     }
 

@@ -8,9 +8,12 @@
 //! $(1 - \alpha) V U(\theta) + \alpha \sum V_0 U(J)$: alone, the mean leaves a yielding cell free to turn a point inside out.
 
 mod inspect;
+mod part;
 mod passes;
 
 pub use inspect::PointView;
+use part::Level;
+pub use part::Part;
 
 use crate::lanes::{Lanes, WIDTH};
 use crate::material::stress::{Constitutive, Response};
@@ -62,6 +65,8 @@ struct Cell {
     strength: f64,
     /// Mean dilatation of the last sweep.
     dilatation: f64,
+    /// What [`Points::steepness`] found last.
+    steepness: f64,
 }
 
 /// What the passes of a sweep hand on of one block.
@@ -107,6 +112,8 @@ impl<S: Space> Scratch<S> {
 #[derive(Clone)]
 pub struct Points<S: Space, M: Constitutive<S>, const N: usize> {
     cells: Vec<Cell>,
+    /// Cells by the step they take; never empty.
+    levels: Vec<Level>,
     offsets: [usize; N],
     /// Factors of the weights, [`Self::STRIDE`] a block.
     factors: Vec<Lanes>,
@@ -157,6 +164,7 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
     pub fn new(material: M, offsets: [usize; N], own_volume: f64) -> Self {
         Points {
             cells: Vec::new(),
+            levels: vec![Level::default()],
             offsets,
             factors: Vec::new(),
             volumes: Vec::new(),
@@ -194,7 +202,9 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
             volume: points.iter().map(|p| p.volume).sum(),
             strength: 1.0,
             dilatation: 1.0,
+            steepness: 0.0,
         });
+        self.levels[0].end = self.cells.len();
         let blocks = (last - first) as usize;
         if self.scratch.len() < blocks {
             self.scratch.resize(blocks, Scratch::virgin());
@@ -240,20 +250,5 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
             + size(&self.states)
             + size(&self.scratch)
             + size(&self.partial)
-    }
-
-    /// Internal forces of the displacements `u`, written into `force`.
-    pub fn sweep(&mut self, purpose: Purpose, u: &[S::Vector], force: &mut [S::Vector]) -> Sweep {
-        self.partial.clear();
-        self.partial
-            .resize(force.len() * S::DIRECTIONS, Lanes::default());
-        let sweep = self.pass(0..self.cells.len(), purpose, u);
-        let sums = self.partial.chunks_exact(S::DIRECTIONS);
-        for (force, lanes) in force.iter_mut().zip(sums) {
-            for (x, lanes) in force.as_mut().iter_mut().zip(lanes) {
-                *x = 0.0 - lanes.sum();
-            }
-        }
-        sweep
     }
 }

@@ -211,6 +211,7 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::impact::kernel::Part;
     use crate::impact::patch::Frictionless;
     use crate::impact::{setup, solid};
     use crate::material::flow::PerfectlyPlastic;
@@ -310,13 +311,15 @@ mod tests {
         let mut whole = vec![[0.0; 2]; u.len()];
         model.points.sweep(Purpose::Trial, &u, &mut whole);
         let mut sum = vec![[0.0; 2]; u.len()];
-        model.points.one_by_one(Purpose::Trial, &u, |_, forces| {
-            for (node, force) in forces {
-                for (sum, x) in sum[*node].iter_mut().zip(force) {
-                    *sum += x;
+        model
+            .points
+            .one_by_one(Part::All, Purpose::Trial, &u, |_, forces| {
+                for (node, force) in forces {
+                    for (sum, x) in sum[*node].iter_mut().zip(force) {
+                        *sum += x;
+                    }
                 }
-            }
-        });
+            });
         let most = whole.iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
         for (a, b) in whole.iter().flatten().zip(sum.iter().flatten()) {
             assert!((a - b).abs() < 1e-13 * most, "{a} {b}");

@@ -3,16 +3,17 @@
 mod observe;
 
 use crate::curve::Status;
-use crate::impact::contact::Wall;
+use crate::impact::contact::{Touch, Wall};
 use crate::impact::erosion::Erosion;
-use crate::impact::kernel::{Purpose, Sweep};
+use crate::impact::kernel::{Part, Purpose, Sweep};
+use crate::impact::local::{LocalStep, push};
 use crate::impact::record::{Frame, Record, Snapshot};
 use crate::impact::remap::{Remap, StepEnd};
 use crate::impact::setup::Model;
 use crate::impact::timestep::StabilityLimit;
 use crate::material::stress::Constitutive;
 use crate::plan::{Plan, Remedies};
-use crate::scheme::TimeStep;
+use crate::scheme::{TimeStep, Transfer};
 use crate::space::Space;
 use crate::tape::{Keeper, keep_fields};
 
@@ -44,9 +45,16 @@ keep_fields!(Start: height, centre, elastic, eroded);
 keep_fields!(
     impl [S: Space, M: Constitutive<S>, W: Wall<S>, T: Remap<S::Vector>, const N: usize]
     Run<'_, S, M, W, T, N>:
-    model, transfer, transferred, u, v, limit, dt, time, step, next_refresh, next_output, impulse, tangential,
+    model, transfer, transferred, u, v, limit, local, dt, time, step, stepped, next_refresh, next_output, impulse, tangential,
     contact_work, plastic, contact_radius, contact_end, frames, closure, compressed, erosion, start,
 );
+
+/// What an output needs of the levels' sweeps.
+#[derive(Debug, Clone, Copy, Default)]
+struct Output {
+    elastic: f64,
+    impulse: f64,
+}
 
 /// A run in progress.
 #[derive(Clone)]
@@ -67,9 +75,14 @@ where
     old: Vec<S::Vector>,
     force: Vec<S::Vector>,
     limit: StabilityLimit<S>,
+    local: LocalStep<S, W>,
+    /// Time step, the long one where some cells take short ones.
     dt: f64,
     time: f64,
     step: u64,
+    /// Blocks of points stepped so far, and those of the body.
+    stepped: u64,
+    blocks: u64,
     next_refresh: u64,
     next_output: f64,
     impulse: f64,
@@ -99,11 +112,11 @@ where
         let mass = model.mass.iter().sum::<f64>();
         let mut run = Run {
             limit: StabilityLimit::new(nodes),
+            local: LocalStep::new(&remedies(plan), &model.contact, nodes),
             u: vec![S::Vector::default(); nodes],
             v: vec![incident::<S>(plan, speed); nodes],
             old: vec![S::Vector::default(); nodes],
             force: vec![S::Vector::default(); nodes],
-            model,
             transfer,
             transferred: 0.0,
             plan,
@@ -111,6 +124,8 @@ where
             dt: 0.0,
             time: 0.0,
             step: 0,
+            stepped: 0,
+            blocks: model.points.blocks_of(Part::All),
             next_refresh: 0,
             next_output: 0.0,
             impulse: 0.0,
@@ -126,6 +141,7 @@ where
             failure: None,
             erosion: Erosion::new(plan.grid.remedies.least_step),
             start: Start::default(),
+            model,
         };
         run.frames.push(run.first_frame());
         run
@@ -205,7 +221,7 @@ where
             ..self.first_frame()
         };
         self.frames = vec![first];
-        (self.time, self.step, self.next_refresh) = (0.0, 0, 0);
+        (self.time, self.step, self.stepped, self.next_refresh) = (0.0, 0, 0, 0);
         (self.impulse, self.tangential, self.contact_work) = (0.0, 0.0, 0.0);
         (self.plastic, self.transferred, self.closure) = (0.0, 0.0, 0.0);
         (self.contact_radius, self.contact_end) = (0.0, 0.0);
@@ -255,17 +271,21 @@ where
         let covering = covered * self.plan.grid.fine / (self.speed * self.dt);
         let interval = covering.clamp(1.0, REFRESH).floor();
         self.next_refresh += interval as u64;
-        let horizon = 2.0 * interval * self.dt;
+        let (speed, horizon) = (2.0 * self.speed, 2.0 * interval * self.dt);
+        let travel = self.transfer.travel(&self.u);
         self.model
             .contact
-            .refresh(self.transfer.travel(&self.u), 2.0 * self.speed, horizon);
+            .refresh(travel, speed, horizon, &|_| true);
+        self.local
+            .refresh(travel, speed, horizon, &self.model.points);
     }
 
     /// Stable step of the present configuration; the last one where there is none to go on with.
     fn stable_step(&mut self) -> f64 {
         let model = &mut self.model;
-        let found = self.erosion.stable_step(
+        let found = self.local.stable_step(
             &mut self.limit,
+            &mut self.erosion,
             &mut model.points,
             &self.u,
             &model.recip_mass,
@@ -276,10 +296,17 @@ where
         })
     }
 
-    /// Internal forces of this step. Where a point is turned inside out its cell is taken out, or the run stops.
-    fn forces(&mut self, purpose: Purpose) -> Sweep {
+    /// Internal forces of a level of cells. Where a point is turned inside out its cell is taken out, or the run stops.
+    fn forces(&mut self, level: usize, purpose: Purpose) -> Sweep {
         let points = &mut self.model.points;
-        let sweep = points.sweep(purpose, &self.u, &mut self.force);
+        let force = match level {
+            0 => &mut self.force,
+            _ => self.local.force(level),
+        };
+        let part = Part::Level(level);
+        self.stepped += points.blocks_of(part);
+        let sweep = points.sweep_part(part, purpose, &self.u, force);
+        self.plastic += sweep.plastic;
         if sweep.least_j > 0.0 {
             return sweep;
         }
@@ -290,35 +317,66 @@ where
             self.failure = Some(reason);
         }
         // the states of the others have moved on to these displacements: they answer as before and dissipate no more
-        let again = points.sweep(purpose, &self.u, &mut self.force);
-        Sweep {
-            plastic: sweep.plastic + again.plastic,
-            ..again
-        }
+        let again = points.sweep_part(part, purpose, &self.u, force);
+        self.plastic += again.plastic;
+        again
     }
 
     /// One step of the symplectic scheme: forces at $u_n$, velocities to n + 1/2, contact, displacements to n + 1.
     fn advance(&mut self, output: bool) {
-        let purpose = if output {
-            Purpose::Audit
-        } else {
-            Purpose::Step
+        self.descend(0, self.dt, &mut output.then(Output::default));
+        self.step += 1;
+    }
+
+    /// One step of a level of cells, with the two steps of the next level in it. What is due to be put out is gathered on
+    /// the way down to the first of the shortest steps.
+    fn descend(&mut self, level: usize, dt: f64, output: &mut Option<Output>) {
+        let purpose = match output {
+            Some(_) => Purpose::Audit,
+            None => Purpose::Step,
         };
-        let sweep = self.forces(purpose);
-        self.plastic += sweep.plastic;
-        let dt = self.dt;
+        let sweep = self.forces(level, purpose);
+        let touch = if level == 0 {
+            self.kick(dt)
+        } else {
+            let nodes = self.model.points.nodes_of(level);
+            let recip_mass = &self.model.recip_mass;
+            self.local
+                .kick(level, dt, nodes, &self.u, &mut self.v, recip_mass)
+        };
+        self.book(&touch, dt);
+        if let Some(output) = output {
+            output.elastic += sweep.elastic;
+            output.impulse += touch.impulse;
+        }
+        if level < self.model.points.deepest() {
+            self.descend(level + 1, 0.5 * dt, output);
+            self.descend(level + 1, 0.5 * dt, output);
+            return;
+        }
+        if let Some(output) = output.take() {
+            self.record(output.elastic, output.impulse);
+        }
+        if level == 0 {
+            self.map(dt);
+        }
+        self.drift(dt);
+    }
+
+    /// Velocities after forces and contact of the longest step.
+    fn kick(&mut self, dt: f64) -> Touch {
         self.old.copy_from_slice(&self.v);
-        let pushes = self.force.iter().zip(&self.model.recip_mass);
-        for (v, (force, weight)) in self.v.iter_mut().zip(pushes) {
-            let components = force.as_ref().iter().zip(weight.as_ref());
-            for (v, (f, w)) in v.as_mut().iter_mut().zip(components) {
-                *v += dt * f * w;
-            }
+        let recip_mass = &self.model.recip_mass;
+        for (v, (force, weight)) in self.v.iter_mut().zip(self.force.iter().zip(recip_mass)) {
+            push(v, dt, force, weight);
         }
         let travel = self.transfer.travel(&self.u);
-        let recip_mass = &self.model.recip_mass;
         let contact = &mut self.model.contact;
-        let touch = contact.solve(dt, travel, &self.old, &mut self.v, recip_mass);
+        contact.solve(dt, travel, &self.old, &mut self.v, recip_mass)
+    }
+
+    /// Add up what contact did in a step of length `dt`.
+    fn book(&mut self, touch: &Touch, dt: f64) {
         self.impulse += touch.impulse;
         self.tangential += touch.tangential;
         self.contact_work += touch.work;
@@ -326,9 +384,10 @@ where
         if touch.impulse > 0.0 {
             self.contact_end = self.time + dt;
         }
-        if output {
-            self.record(sweep.elastic, touch.impulse);
-        }
+    }
+
+    /// Velocities mapped through the points, in schemes that do.
+    fn map(&mut self, dt: f64) {
         let end = StepEnd {
             dt,
             old: &self.old,
@@ -337,13 +396,16 @@ where
             recip_mass: &self.model.recip_mass,
         };
         self.transferred += self.transfer.remap(end, &mut self.v);
+    }
+
+    /// Displacements at the end of a shortest step.
+    fn drift(&mut self, dt: f64) {
         for (u, v) in self.u.iter_mut().zip(&self.v) {
             for (u, v) in u.as_mut().iter_mut().zip(v.as_ref()) {
                 *u += dt * v;
             }
         }
         self.time += dt;
-        self.step += 1;
     }
 
     /// Mass average of component `axis` of a nodal field.
@@ -354,6 +416,18 @@ where
             .map(|(x, m)| m * x.as_ref()[axis])
             .sum();
         sum / self.mass
+    }
+}
+
+/// Remedies of a plan; cells take steps of their own only where nothing else acts on velocities in between.
+fn remedies(plan: &Plan) -> Remedies {
+    let scheme = &plan.scheme;
+    let applies = scheme.transfer == Transfer::Persistent && scheme.time_step == TimeStep::Stable;
+    let remedies = plan.grid.remedies;
+    let long_step = if applies { remedies.long_step } else { 0.0 };
+    Remedies {
+        long_step,
+        ..remedies
     }
 }
 

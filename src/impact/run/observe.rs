@@ -162,7 +162,7 @@ where
             eroded: self.erosion.volume() / self.mass,
             plastic_strain: self.model.points.plastic_strain_volume() / self.mass,
             points: self.model.points.count(),
-            steps: self.step,
+            steps: (self.stepped as f64 / self.blocks as f64).round() as u64,
             seconds_before: 0.0,
             memory_bytes,
             transfer_loss,
