@@ -3,11 +3,19 @@
 use impactlaw::case::Case;
 use impactlaw::curve::{Status, Summary};
 use impactlaw::impact::simulate;
-use impactlaw::plan::plan;
+use impactlaw::plan::{Grid, plan};
 use std::path::Path;
 
 /// Impact at given E/Y and rho V^2/Y, with cells `size` times those of the plan.
 fn impact(young_over_yield: f64, severity: f64, size: f64) -> Summary {
+    changed(young_over_yield, severity, |grid| {
+        grid.fine *= size;
+        grid.coarse *= size;
+    })
+}
+
+/// Impact at given E/Y and rho V^2/Y on a changed grid.
+fn changed(young_over_yield: f64, severity: f64, change: impl Fn(&mut Grid)) -> Summary {
     let yield_pa = 1e9 / young_over_yield;
     let velocity = (severity * yield_pa / 1000.0).sqrt();
     let text = format!(
@@ -18,8 +26,7 @@ fn impact(young_over_yield: f64, severity: f64, size: f64) -> Summary {
     let case = Case::parse(&text, Path::new("large.toml")).unwrap();
     let mut plan = plan(&case, velocity);
     assert!(plan.grid.remedies.is_large());
-    plan.grid.fine *= size;
-    plan.grid.coarse *= size;
+    change(&mut plan.grid);
     let summary = simulate(&case.material, case.radius, &plan).impact.summary;
     assert_eq!(summary.status, Status::Ok);
     assert!(
@@ -73,5 +80,26 @@ fn a_finer_grid_changes_a_flattened_particle_by_less_than_the_tolerance() {
         "{} {}",
         plain.restitution,
         fine.restitution
+    );
+}
+
+#[test]
+fn steps_of_their_own_for_squeezed_cells_change_the_time_and_nothing_else() {
+    let own = impact(320.0, 1.0, 1.0);
+    let one = changed(320.0, 1.0, |grid| grid.remedies.long_step = 0.0);
+    assert!(change(own.max_displacement_m, one.max_displacement_m) < 0.001);
+    assert!(
+        change(own.max_force_n, one.max_force_n) < 0.01,
+        "{} {}",
+        own.max_force_n,
+        one.max_force_n
+    );
+    assert!((own.restitution - one.restitution).abs() < 0.002);
+    assert!((own.plastic_work_ratio - one.plastic_work_ratio).abs() < 0.002);
+    assert!(
+        own.steps < one.steps / 3,
+        "{} steps of all points for {}",
+        own.steps,
+        one.steps
     );
 }

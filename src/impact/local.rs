@@ -46,8 +46,8 @@ pub struct LocalStep<S: Space, W> {
     share: f64,
     /// Largest steepness of the undeformed body's cells.
     first: f64,
-    /// Measured stable step of each level times the root of its steepness then, and how many refreshes ago.
-    steps: Vec<f64>,
+    /// Measured stable step of each level with its largest steepness then, and how many refreshes ago.
+    steps: Vec<(f64, f64)>,
     age: u64,
     /// Levels beyond the first, as many as could be needed; none: one step for all.
     levels: Vec<Level<S, W>>,
@@ -109,21 +109,13 @@ impl<S: Space, W: Wall<S>> LocalStep<S, W> {
         if self.levels.is_empty() || erosion.first() == 0.0 {
             return erosion.stable_step(limit, points, Part::All, u, recip_mass);
         }
-        let steepest = self.sort(points, u);
+        let steepest = self.sort(points, u, recip_mass);
         self.age += 1;
-        let short = self.deepest_step(&steepest) < erosion.least_step();
+        let short = self.step(self.levels.len(), &steepest) < erosion.least_step();
         if self.steps.len() != steepest.len() || self.age >= MOST_AGE || short {
             self.measure(limit, erosion, points, &steepest, (u, recip_mass))?;
         }
-        let steps = self.steps.iter().zip(&steepest).enumerate();
-        let longest = steps.map(|(level, (step, steepness))| {
-            // a level without cells has no limit
-            if *steepness > 0.0 {
-                step / steepness.sqrt() * parts(level)
-            } else {
-                f64::INFINITY
-            }
-        });
+        let longest = (0..steepest.len()).map(|level| self.step(level, &steepest) * parts(level));
         Ok(longest.fold(f64::INFINITY, f64::min))
     }
 
@@ -150,16 +142,18 @@ impl<S: Space, W: Wall<S>> LocalStep<S, W> {
             } else {
                 erosion.stable_step(limit, points, part, u, recip_mass)?
             };
-            self.steps.push(step * steepness.sqrt());
+            self.steps.push((step, *steepness));
         }
         Ok(())
     }
 
-    /// Step of the deepest level there can be, from its steepness; infinite where it has no cells.
-    fn deepest_step(&self, steepest: &[f64]) -> f64 {
-        let last = self.levels.len();
-        let pair = self.steps.get(last).zip(steepest.get(last));
-        pair.map_or(f64::INFINITY, |(step, steepness)| step / steepness.sqrt())
+    /// Stable step of a level as measured, or shorter by what its steepest cell has gained since; infinite where it has no
+    /// cells. Longer steps have to be measured: the steepest cell need not be the one that limits them.
+    fn step(&self, level: usize, steepest: &[f64]) -> f64 {
+        match (self.steps.get(level), steepest.get(level)) {
+            (Some((step, then)), Some(now)) if *now > 0.0 => step * (then / now).sqrt().min(1.0),
+            _ => f64::INFINITY,
+        }
     }
 
     /// Cells by the step they need: those within the longest step first, then an octave a level. Returns the largest
@@ -168,8 +162,9 @@ impl<S: Space, W: Wall<S>> LocalStep<S, W> {
         &mut self,
         points: &mut Points<S, M, N>,
         u: &[S::Vector],
+        recip_mass: &[S::Vector],
     ) -> Vec<f64> {
-        let steepness = points.steepness(u);
+        let steepness = points.steepness(u, recip_mass);
         if self.first == 0.0 {
             self.first = steepness.iter().fold(0.0, |a, x| a.max(*x));
         }

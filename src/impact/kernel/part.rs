@@ -112,10 +112,11 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
         &self.levels[level].nodes
     }
 
-    /// Squared gradients of its nodes' functions in the deformed body, summed, times the strength that is left: of each cell
-    /// the largest among its points. The squared frequency of the cell goes with it.
-    pub fn steepness(&mut self, u: &[S::Vector]) -> Vec<f64> {
-        let all = self.slopes(u);
+    /// Trace of $M^{-1} K$ over the nodes of each cell, up to the material's modulus: volumes times squared gradients of the
+    /// nodes' functions in the deformed body over the nodes' masses, times the strength that is left. The squared frequency of
+    /// the cell goes with it.
+    pub fn steepness(&mut self, u: &[S::Vector], recip_mass: &[S::Vector]) -> Vec<f64> {
+        let all = self.slopes(u, recip_mass);
         for (cell, steepness) in self.cells.iter_mut().zip(&all) {
             cell.steepness = *steepness;
         }
@@ -123,41 +124,46 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
     }
 
     /// Steepness of every cell, with whatever vector instructions the machine has.
-    fn slopes(&self, u: &[S::Vector]) -> Vec<f64> {
+    fn slopes(&self, u: &[S::Vector], recip_mass: &[S::Vector]) -> Vec<f64> {
         #[cfg(target_arch = "x86_64")]
         if std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma")
         {
             // SAFETY: the features were detected on the lines above.
-            return unsafe { self.slopes_avx2(u) };
+            return unsafe { self.slopes_avx2(u, recip_mass) };
         }
-        self.slopes_any(u)
+        self.slopes_any(u, recip_mass)
     }
 
     /// [`Self::slopes`] compiled for 256-bit registers.
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2,fma")]
-    fn slopes_avx2(&self, u: &[S::Vector]) -> Vec<f64> {
-        self.slopes_any(u)
+    fn slopes_avx2(&self, u: &[S::Vector], recip_mass: &[S::Vector]) -> Vec<f64> {
+        self.slopes_any(u, recip_mass)
     }
 
     #[inline(always)]
-    fn slopes_any(&self, u: &[S::Vector]) -> Vec<f64> {
+    fn slopes_any(&self, u: &[S::Vector], recip_mass: &[S::Vector]) -> Vec<f64> {
         const { assert!(side(N, S::DIRECTIONS) * S::DIRECTIONS <= MOST_SLOPES) };
         let mut all = Vec::with_capacity(self.cells.len());
         for cell in &self.cells {
-            let mut most = 0.0f64;
+            let mut sum = Lanes::default();
             for block in cell.first as usize..cell.last as usize {
-                let squared = self.squared_slopes(cell, block, u);
-                most = squared.array().iter().fold(most, |most, x| most.max(*x));
+                sum += self.squared_slopes(cell, block, u, recip_mass) * self.volumes[block];
             }
-            all.push(most * cell.strength);
+            all.push(sum.sum() * cell.strength);
         }
         all
     }
 
-    /// Squared gradients of its nodes' functions in the deformed body, summed, at the points of a block.
+    /// Squared gradients of its nodes' functions in the deformed body over the nodes' masses at the points of a block.
     #[inline(always)]
-    fn squared_slopes(&self, cell: &Cell, block: usize, u: &[S::Vector]) -> Lanes {
+    fn squared_slopes(
+        &self,
+        cell: &Cell,
+        block: usize,
+        u: &[S::Vector],
+        recip_mass: &[S::Vector],
+    ) -> Lanes {
         let gradient = self.gradient(cell, block, u);
         let recip_j = S::determinant(&gradient).recip();
         let unit = S::Symmetric::identity();
@@ -170,8 +176,10 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
             let mut slopes = [Lanes::default(); MOST_SLOPES];
             let slopes = &mut slopes[..Self::SIDE * S::DIRECTIONS];
             S::add_row_force(slopes, &pulled, first, &weights);
-            for slope in slopes {
-                sum += *slope * *slope;
+            let node = cell.node as usize + self.offsets[row * Self::SIDE];
+            let masses = recip_mass[node..][..Self::SIDE].iter();
+            for (slope, recip) in slopes.iter().zip(masses.flat_map(AsRef::as_ref)) {
+                sum += *slope * *slope * *recip;
             }
         }
         sum
@@ -241,5 +249,99 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
         nodes.sort_unstable();
         nodes.dedup();
         self.levels[level].nodes = nodes;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::impact::setup::{self, AxisymmetricModel};
+    use crate::material::flow::PerfectlyPlastic;
+    use crate::material::stress::{J2, Moduli};
+    use crate::plan::{Grid, Remedies};
+    use crate::scheme::Layout;
+
+    type Metal = J2<PerfectlyPlastic>;
+
+    fn model() -> AxisymmetricModel<Metal, 9> {
+        let grid = Grid {
+            degree: 2,
+            points_per_direction: 2,
+            fine: 0.1,
+            fine_width: 0.3,
+            fine_depth: 0.1,
+            growth: 1.3,
+            coarse: 0.3,
+            dt_share: 1.0,
+            remedies: Remedies::NONE,
+        };
+        let moduli = Moduli::new(1.0, 0.35);
+        let flow = PerfectlyPlastic { strength: 0.01 };
+        setup::build::<_, 2, 9>(&grid, Layout::Fitted, J2 { moduli, flow }, 1e-9)
+    }
+
+    /// The third cell goes two levels down, the twentieth one.
+    fn chosen(cells: usize) -> Vec<usize> {
+        let level = |c| [0, 2, 1][usize::from(c == 3) + 2 * usize::from(c == 20)];
+        (0..cells).map(level).collect()
+    }
+
+    #[test]
+    fn forces_of_all_levels_add_up_to_those_of_all_cells() {
+        let mut model = model();
+        let nodes = model.mass.len();
+        let u: Vec<[f64; 2]> = (0..nodes)
+            .map(|n| [0.0, 1e-3 * (0.7 * n as f64).cos()])
+            .collect();
+        let mut whole = vec![[0.0; 2]; nodes];
+        model.points.sweep(Purpose::Trial, &u, &mut whole);
+        let cells = model.points.range(Part::All).len();
+        assert!(model.points.deepen(&chosen(cells), nodes));
+        assert_eq!(model.points.deepest(), 2);
+        let mut sum = vec![[0.0; 2]; nodes];
+        for level in 0..3 {
+            let mut force = vec![[0.0; 2]; nodes];
+            (model.points).sweep_part(Part::Level(level), Purpose::Trial, &u, &mut force);
+            for (sum, force) in sum.iter_mut().flatten().zip(force.iter().flatten()) {
+                *sum += force;
+            }
+        }
+        let most = whole.iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
+        for (a, b) in whole.iter().flatten().zip(sum.iter().flatten()) {
+            assert!((a - b).abs() < 1e-13 * most, "{a} {b}");
+        }
+    }
+
+    #[test]
+    fn neighbours_go_along_and_no_cell_comes_back() {
+        let mut model = model();
+        let nodes = model.mass.len();
+        let cells = model.points.range(Part::All).len();
+        let chosen = chosen(cells);
+        model.points.deepen(&chosen, nodes);
+        // a cell of the second level shares no node with one that takes the longest step but through a row in between
+        let deep: Vec<usize> = model.points.nodes_of(2).to_vec();
+        assert!(deep.len() > 9, "more than the chosen cell's own nodes");
+        let counts = |p: &Points<_, Metal, 9>| [0, 1, 2].map(|l| p.range(Part::Level(l)).len());
+        let before = counts(&model.points);
+        assert!(before[1] > 1 && before[2] > 1);
+        assert!(!model.points.deepen(&vec![0; cells], nodes));
+        assert_eq!(counts(&model.points), before);
+    }
+
+    #[test]
+    fn steepness_goes_with_the_inverse_square_of_the_thickness() {
+        let mut model = model();
+        let flat: Vec<[f64; 2]> = model.places.iter().map(|p| [0.0, -0.9 * p[1]]).collect();
+        let still = vec![[0.0; 2]; flat.len()];
+        let (rest, thin) = (
+            model.points.steepness(&still),
+            model.points.steepness(&flat),
+        );
+        for (rest, thin) in rest.iter().zip(&thin) {
+            // between a tenth of the height with the same width, and both
+            assert!(thin / rest > 1.0 && thin / rest <= 100.0 * (1.0 + 1e-9));
+        }
+        assert!(thin.iter().zip(&rest).any(|(t, r)| t / r > 40.0));
     }
 }

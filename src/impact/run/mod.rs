@@ -1,5 +1,7 @@
 //! Run: one impact in progress, step by step.
 
+#[cfg(test)]
+mod kept;
 mod observe;
 
 use crate::curve::Status;
