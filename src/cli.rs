@@ -272,6 +272,9 @@ pub struct ExportArgs {
     /// Form of the law instead of the file's: `closed_form`, `spline` or `hertz`.
     #[arg(long)]
     pub form: Option<String>,
+    /// Law file of a second material: contacts of the two, for target `c`.
+    #[arg(long)]
+    pub with: Option<PathBuf>,
     /// Output folder (default: `out/<law name>/export`).
     #[arg(short, long)]
     pub out: Option<PathBuf>,

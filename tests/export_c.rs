@@ -1,22 +1,17 @@
 //! The exported C law is the law: compiled without a warning and run along random paths; and what `export` refuses.
 
+mod codes;
+
+use codes::{assert_close, models, put_input, succeed};
+use impactlaw::contact::rebound::{Rebound, rebound};
+use impactlaw::contact::{LawVisitor, NormalLaw};
 use impactlaw::export::c;
-use impactlaw::export::check::{Check, CompilerCheck, Finding};
+use impactlaw::export::check::driver::{FLAGS, compiler};
+use impactlaw::export::check::{Check, CompilerCheck, Finding, series};
 use impactlaw::export::portable::Portable;
 use impactlaw::law::{Form, LawFile};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Output};
-
-fn models() -> Vec<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("models");
-    let mut files: Vec<PathBuf> = std::fs::read_dir(folder)
-        .unwrap()
-        .map(|entry| entry.unwrap().path())
-        .collect();
-    files.sort();
-    assert!(!files.is_empty());
-    files
-}
 
 /// Every form of every published law, and the elastic law of each material.
 fn laws() -> Vec<Portable> {
@@ -49,7 +44,7 @@ fn agreements(law: &Portable) -> Option<Vec<(String, f64, bool)>> {
                 .collect(),
         ),
         Finding::Skipped { why } => {
-            eprintln!("SKIPPED: {why}");
+            codes::skipped("C", &why);
             None
         }
     }
@@ -73,6 +68,75 @@ fn every_published_law_in_c_agrees_with_rust_to_1e_12_and_gives_its_reference_im
             );
         }
     }
+}
+
+/// Every pair of laws of two materials, in both orders.
+#[test]
+fn contacts_of_two_materials_in_c_are_those_of_a_mixed_bed_to_1e_12() {
+    let laws = laws();
+    for first in &laws {
+        for second in laws.iter().filter(|law| law.name != first.name) {
+            let folder = tempfile::tempdir().unwrap();
+            match series::check(first, second, folder.path()).unwrap() {
+                Finding::Skipped { why } => return codes::skipped("C", &why),
+                Finding::Ran { agreements, .. } => {
+                    assert_eq!(agreements.len(), 2);
+                    for found in agreements {
+                        let (a, b) = (first.form, second.form);
+                        assert!(found.holds(), "{} {a:?}, {b:?}: {found:?}", first.name);
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn the_inertia_of_the_header_is_that_of_the_law() {
+    struct Impact<'a>(&'a Portable, f64);
+    impl LawVisitor for Impact<'_> {
+        type Output = Rebound;
+        fn visit<L: NormalLaw>(self, law: &L) -> Rebound {
+            let radius = self.0.radius();
+            rebound(law, radius, self.0.material().sphere_mass(radius), self.1)
+        }
+    }
+    let Ok(compiler) = compiler() else {
+        return codes::skipped("C", "there is no compiler");
+    };
+    let mut tried = 0;
+    for law in laws().iter().filter(|law| law.inertia() > 0.0) {
+        let folder = tempfile::tempdir().unwrap();
+        let header = &c::export(law)[0];
+        std::fs::write(folder.path().join(&header.name), &header.text).unwrap();
+        put_input("inertia.c", law, folder.path());
+        let program = folder.path().join("inertia");
+        let mut build = Command::new(&compiler);
+        build.args(FLAGS);
+        build.arg(folder.path().join("inertia.c")).arg("-o");
+        succeed(build.arg(&program).arg("-lm"));
+        let (radius, speed) = (law.radius(), law.file.valid.velocity_max_m_s);
+        let mass = law.material().sphere_mass(radius);
+        let figures = law.full.visit(Impact(law, speed));
+        let at_rest = law.core.visit(Impact(law, speed));
+        // the term is felt
+        assert!(figures.max_displacement / at_rest.max_displacement < 0.99);
+        let dt = figures.contact_time / 400_000.0;
+        let arguments = [radius, mass, speed, dt].map(|number| format!("{number:e}"));
+        let said = succeed(Command::new(&program).args(arguments));
+        let found = &codes::rows(&said, 3)[0];
+        println!("{} {:?}: {found:?}, {figures:?}", law.name, law.form);
+        assert_close(found[0], figures.restitution, 1e-8, "restitution");
+        assert_close(found[1], figures.max_force, 1e-8, "largest force");
+        assert_close(
+            found[2],
+            figures.max_displacement,
+            1e-8,
+            "largest flattening",
+        );
+        tried += 1;
+    }
+    assert!(tried > 0, "a published law has inertia");
 }
 
 #[test]
@@ -141,6 +205,14 @@ fn bad_arguments_give_one_error_and_write_nothing() {
         (
             vec!["--to", "c", "--form", "hertz"],
             "is not in the law file, which holds closed_form, spline",
+        ),
+        (
+            vec!["--to", "c", "--with", &model],
+            "must have a name of its own",
+        ),
+        (
+            vec!["--to", "c,lammps", "--with", &model],
+            "is for target c: the other targets hold one law",
         ),
     ] {
         let mut all = vec!["export", &model, "-o", "out"];

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// The order; a room may use rooms of earlier lines.
-const ORDER: [&[&str]; 17] = [
+const ORDER: [&[&str]; 18] = [
     &["error"],
     &["files", "unit", "lanes"],
     &["tape"],
@@ -22,6 +22,7 @@ const ORDER: [&[&str]; 17] = [
     &["report"],
     &["cli"],
     &["command"],
+    &["capi"],
 ];
 
 const LONGEST_FILE: usize = 400;

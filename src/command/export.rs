@@ -4,7 +4,7 @@ use super::{Context, Verdict, output_folder, print};
 use crate::cli::ExportArgs;
 use crate::export::check::{self, Finding};
 use crate::export::portable::Portable;
-use crate::export::{Artifact, Target};
+use crate::export::{Artifact, Target, series};
 use crate::files::write_atomic;
 use crate::law::Form;
 use crate::{Error, Result};
@@ -21,15 +21,12 @@ pub fn run(args: &ExportArgs, context: &Context) -> Result<Verdict> {
     let targets = targets(&args.to, args.check)?;
     let form = args.form.as_deref().map(form).transpose()?;
     let law = Portable::read(&args.law, form)?;
-    let mut artifacts: Vec<Artifact> = Vec::new();
-    let everything = args.to.iter().any(|name| name == ALL);
-    for target in &targets {
-        match target.export(&law) {
-            Ok(files) => artifacts.extend(files),
-            Err(error) if everything => tracing::warn!("left out: {error}"),
-            Err(error) => return Err(error),
-        }
-    }
+    let other = args.with.as_deref();
+    let other = other.map(|file| Portable::read(file, form)).transpose()?;
+    let artifacts = match &other {
+        Some(other) => with(&law, other, &targets)?,
+        None => alone(&law, &targets, args.to.iter().any(|name| name == ALL))?,
+    };
     if !targets.is_empty() {
         let folder = output_folder(args.out.as_deref(), &law.name)?;
         let folder = match args.out {
@@ -44,9 +41,38 @@ pub fn run(args: &ExportArgs, context: &Context) -> Result<Verdict> {
         }
         print(&said)?;
     }
-    match args.check {
-        true => check_all(&law, context),
-        false => Ok(Verdict::Met),
+    match (args.check, &other) {
+        (true, Some(other)) => check_with(&law, other),
+        (true, None) => check_all(&law, context),
+        (false, _) => Ok(Verdict::Met),
+    }
+}
+
+/// Files of one material's law; where `everything` is wanted, targets that cannot express it are left out.
+fn alone(law: &Portable, targets: &[Target], everything: bool) -> Result<Vec<Artifact>> {
+    let mut artifacts = Vec::new();
+    for target in targets {
+        match target.export(law) {
+            Ok(files) => artifacts.extend(files),
+            Err(error) if everything => tracing::warn!("left out: {error}"),
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(artifacts)
+}
+
+/// Files of the contact of two materials.
+fn with(law: &Portable, other: &Portable, targets: &[Target]) -> Result<Vec<Artifact>> {
+    if let Some(target) = targets.iter().find(|target| **target != Target::C) {
+        return Err(Error::Argument {
+            argument: "--with".to_owned(),
+            found: format!("`--to {target}`"),
+            allowed: "is for target c: the other targets hold one law".to_owned(),
+        });
+    }
+    match targets.is_empty() {
+        true => Ok(Vec::new()),
+        false => series::export(law, other),
     }
 }
 
@@ -87,21 +113,33 @@ fn form(text: &str) -> Result<Form> {
     }
 }
 
-/// Run every check and print the table; a deviation that is not allowed is a missed threshold.
+fn scratch() -> Result<tempfile::TempDir> {
+    let folder = std::path::Path::new("temporary folder");
+    tempfile::tempdir().map_err(Error::file("create", folder))
+}
+
+/// Run the check of a contact of two materials and print the table.
+fn check_with(law: &Portable, other: &Portable) -> Result<Verdict> {
+    let finding = check::series::check(law, other, scratch()?.path())?;
+    verdict(&[("C, two materials", finding)])
+}
+
+/// Run every check and print the table.
 fn check_all(law: &Portable, context: &Context) -> Result<Verdict> {
     let checks = check::all();
     let bar = context.progress(checks.len() as u64, "check");
     let mut findings = Vec::new();
     for check in &checks {
-        let scratch = tempfile::tempdir().map_err(Error::file(
-            "create",
-            std::path::Path::new("temporary folder"),
-        ))?;
-        findings.push((check.name(), check.run(law, scratch.path())?));
+        findings.push((check.name(), check.run(law, scratch()?.path())?));
         bar.inc(1);
     }
     bar.finish_and_clear();
-    print(&check::table(&findings))?;
+    verdict(&findings)
+}
+
+/// Prints the table; a deviation that is not allowed is a missed threshold.
+fn verdict(findings: &[(&'static str, Finding)]) -> Result<Verdict> {
+    print(&check::table(findings))?;
     let missed = findings.iter().any(|(_, finding)| match finding {
         Finding::Ran { agreements, .. } => agreements.iter().any(|a| !a.holds()),
         Finding::Skipped { .. } => false,

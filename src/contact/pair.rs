@@ -188,6 +188,9 @@ impl<L: NormalLaw> Press for Alike<L> {
 /// Relative mismatch of the two forces at which the search ends: what is left of it enters the force and the energy
 /// squared.
 const MISMATCH: f64 = 1e-9;
+/// Newton step over the overlap at which the search ends where one side carries nothing: the bodies have lost contact, and the
+/// other side would come to nothing only in the limit.
+const SLIGHT: f64 = 1e-13;
 /// Iterations of the safeguarded Newton search; bisection alone ends within this many halvings of a `f64` interval.
 const MAX_SEARCH: usize = 64;
 
@@ -223,7 +226,11 @@ pub fn balance(
         } else {
             low = at;
         }
-        let newton = at - excess / (a.stiffness + b.stiffness);
+        let step = excess / (a.stiffness + b.stiffness);
+        if a.force.min(b.force) == 0.0 && step.abs() <= SLIGHT * overlap {
+            break;
+        }
+        let newton = at - step;
         let next = if newton > low && newton < high {
             newton
         } else {

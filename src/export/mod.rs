@@ -16,6 +16,7 @@ pub mod native;
 pub mod portable;
 pub mod reference;
 pub mod scene;
+pub mod series;
 pub mod table;
 
 use crate::{Error, Result};

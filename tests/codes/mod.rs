@@ -6,6 +6,7 @@ pub mod exported;
 
 use impactlaw::export::Artifact;
 use impactlaw::export::check::{Check, Finding, run};
+use impactlaw::export::kernel;
 use impactlaw::export::portable::Portable;
 use impactlaw::law::Form;
 use std::path::{Path, PathBuf};
@@ -104,6 +105,7 @@ pub fn succeed(command: &mut Command) -> String {
 pub fn put_input(name: &str, law: &Portable, folder: &Path) {
     let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/codes");
     let text = std::fs::read_to_string(data.join(name)).unwrap();
+    let text = kernel::named(&text, law).replace("@FILE@", &format!("{}.h", law.identifier));
     std::fs::write(folder.join(name), text.replace("@NAME@", &law.identifier)).unwrap();
 }
 

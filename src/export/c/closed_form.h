@@ -2,15 +2,16 @@
    f = w^1.5 exp(-q L^3/(b^2 + L^2)), L = max(0, ln(w/w_1)), w_1 LAW_DEPARTURE, b LAW_BREADTH, q LAW_SOFTENING. */
 LAW_FUNCTION double law_loading(double w, double *slope)
 {
-    double root = sqrt(w), l, l2, v, f;
+    const double b2 = LAW_BREADTH * LAW_BREADTH;
+    double root = sqrt(w), l, l2, inverse, f;
     if (w <= LAW_DEPARTURE) {
         *slope = 1.5 * root;
         return w * root;
     }
     l = log(w / LAW_DEPARTURE);
     l2 = l * l;
-    f = w * root * exp(-LAW_SOFTENING * l * l2 / (LAW_BREADTH * LAW_BREADTH + l2));
-    v = l2 / (LAW_BREADTH * LAW_BREADTH);
-    *slope = (1.5 - LAW_SOFTENING * v * (3.0 + v) / ((1.0 + v) * (1.0 + v))) * f / w;
+    inverse = 1.0 / (b2 + l2);
+    f = w * root * exp(-LAW_SOFTENING * l * l2 * inverse);
+    *slope = (1.5 - LAW_SOFTENING * l2 * (3.0 * b2 + l2) * inverse * inverse) * f / w;
     return f;
 }

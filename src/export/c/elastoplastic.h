@@ -16,7 +16,7 @@ LAW_FUNCTION void law_unload(law_side *side)
    same branch. A function of x and x_max alone: it does not depend on the steps taken. */
 LAW_FUNCTION double law_reduced(double x, law_side *side, double *slope)
 {
-    double z, power;
+    double past, inverse_span, z, secant;
     if (x >= side->x_max) {
         double f;
         if (!(x > 0.0)) {
@@ -35,19 +35,17 @@ LAW_FUNCTION double law_reduced(double x, law_side *side, double *slope)
     }
     if (side->n == 0.0)
         law_unload(side);
-    if (x <= side->x_res) {
+    past = x - side->x_res;
+    if (past <= 0.0) {
         *slope = 0.0;
         return 0.0;
     }
-    if (side->x_res == 0.0) { /* not yet yielded: Hertz */
-        double w = x / LAW_YIELD_FLATTENING, root = sqrt(w);
-        *slope = LAW_YIELD_FORCE / LAW_YIELD_FLATTENING * (1.5 * root);
-        return LAW_YIELD_FORCE * (w * root);
-    }
-    z = (x - side->x_res) / (side->x_max - side->x_res);
-    power = pow(z, side->n - 1.0);
-    *slope = side->phi_max * side->n / (side->x_max - side->x_res) * power;
-    return side->phi_max * (power * z);
+    inverse_span = 1.0 / (side->x_max - side->x_res);
+    z = past * inverse_span;
+    /* not yet yielded: Hertz, x_res = 0 and n = 3/2 */
+    secant = side->phi_max * inverse_span * (side->n == 1.5 ? sqrt(z) : pow(z, side->n - 1.0));
+    *slope = secant * side->n;
+    return secant * past;
 }
 
 /* Recoverable energy (J) of one body on a wall at a flattening (m): the area under its unloading branch. */

@@ -1,36 +1,25 @@
 //! Check of the C header: random paths against the law, its own self-test, and what a call costs.
 
+use super::driver::{Driver, FLAGS, Row, compiler, row, version};
 use super::paths::{self, Bodies};
-use super::process::{Ran, find_program, run};
-use super::{Agreement, Check, Finding, largest};
-use crate::contact::pair::Pressed;
+use super::process::run;
+use super::{Agreement, Check, Finding};
+use crate::Result;
+use crate::export::kernel;
 use crate::export::portable::Portable;
-use crate::export::{c, kernel};
-use crate::files::write_atomic;
-use crate::{Error, Result};
 use std::hint::black_box;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 use std::time::Instant;
 
-/// What is compiled, with warnings as errors.
-const DRIVER: &str = include_str!("driver.c");
-const FLAGS: [&str; 6] = [
-    "-std=c99",
-    "-O2",
-    "-Wall",
-    "-Wextra",
-    "-Werror",
-    "-pedantic",
-];
 /// Relative deviation allowed along paths.
-const PATH_ALLOWED: f64 = 1e-12;
+pub(super) const PATH_ALLOWED: f64 = 1e-12;
 /// Steps of a random path.
-const STEPS: usize = 50_000;
+pub(super) const STEPS: usize = 50_000;
 /// Cost of a call of the C law over that of the law itself.
 const COST_ALLOWED: f64 = 1.2;
-/// Passes over the path of which the fastest counts.
-const PASSES: usize = 9;
+/// Runs of which the fastest counts, and passes over the path in each.
+const PASSES: (usize, u64) = (5, 4);
 
 /// The header through the C compiler that `CC` names, else `cc`.
 #[derive(Debug, Clone, Copy)]
@@ -42,13 +31,11 @@ impl Check for CompilerCheck {
     }
 
     fn run(&self, law: &Portable, scratch: &Path) -> Result<Finding> {
-        let Some(compiler) = find_program("CC", "cc") else {
-            return Ok(Finding::Skipped {
-                why: "no C compiler: install one, or name it in the environment variable CC"
-                    .to_owned(),
-            });
+        let compiler = match compiler() {
+            Ok(compiler) => compiler,
+            Err(why) => return Ok(Finding::Skipped { why }),
         };
-        let driver = compile_driver(&compiler, law, scratch)?;
+        let driver = Driver::of(law, &compiler, scratch)?;
         let mut agreements = Vec::new();
         for (bodies, name) in [
             (Bodies::Wall, "wall"),
@@ -66,35 +53,7 @@ impl Check for CompilerCheck {
     }
 }
 
-/// First line of what the compiler says about itself.
-fn version(compiler: &Path) -> Result<String> {
-    let ran = run(Command::new(compiler).arg("--version"), "")?;
-    Ok(ran.stdout.lines().next().unwrap_or_default().to_owned())
-}
-
-fn compile_driver(compiler: &Path, law: &Portable, scratch: &Path) -> Result<PathBuf> {
-    let header = format!("{}.h", law.identifier);
-    write_atomic(&scratch.join(&header), c::header(law).as_bytes())?;
-    let source = scratch.join("driver.c");
-    let text = kernel::named(DRIVER, law).replace("@FILE@", &header);
-    write_atomic(&source, text.as_bytes())?;
-    let driver = scratch.join("driver");
-    let mut command = Command::new(compiler);
-    command.args(FLAGS).arg(&source).arg("-o").arg(&driver);
-    run(command.arg("-lm"), "")?.or_fail("compile", &source)?;
-    Ok(driver)
-}
-
-/// Radii and overlaps as the driver reads them.
-fn input(radii: [f64; 2], path: &[f64]) -> String {
-    let mut text = format!("{:e} {:e}\n", radii[0], radii[1]);
-    for overlap in path {
-        text.push_str(&format!("{overlap:e}\n"));
-    }
-    text
-}
-
-fn along_paths(driver: &Path, law: &Portable, bodies: Bodies, name: &str) -> Result<Agreement> {
+fn along_paths(driver: &Driver, law: &Portable, bodies: Bodies, name: &str) -> Result<Agreement> {
     let radius = law.radius();
     let radii = bodies.radii(radius);
     let sides = radii[0] + radii[1];
@@ -104,60 +63,12 @@ fn along_paths(driver: &Path, law: &Portable, bodies: Bodies, name: &str) -> Res
         11,
     );
     let ours = paths::pressed(&law.core, bodies, radius, &path);
-    let ran = run(&mut Command::new(driver), &input(radii, &path))?.or_fail("run", driver)?;
-    let theirs = rows(&ran, driver)?;
-    let deviation = match theirs.len() == ours.len() {
-        true => largest(
-            ours.iter()
-                .zip(&theirs)
-                .map(|(ours, theirs)| farthest(ours, theirs)),
-        ),
-        false => f64::NAN,
-    };
+    let ours: Vec<Row> = ours.iter().map(row).collect();
     Ok(Agreement {
-        subject: format!(
-            "random paths, {name}, {STEPS} steps: force, stiffness, radius, flattening, energy"
-        ),
-        deviation,
+        subject: paths::subject(name, STEPS),
+        deviation: driver.deviation(radii, &path, &ours, &ours)?,
         allowed: PATH_ALLOWED,
     })
-}
-
-/// Largest relative deviation of the six numbers of a step.
-fn farthest((ours, energy): &(Pressed, f64), theirs: &[f64; 6]) -> f64 {
-    let [a, b] = ours.flattening;
-    let ours = [
-        ours.force,
-        ours.stiffness,
-        ours.contact_radius,
-        a,
-        b,
-        *energy,
-    ];
-    let off = |(ours, theirs): (&f64, &f64)| match theirs == ours {
-        true => 0.0,
-        false => (theirs - ours).abs() / ours.abs(),
-    };
-    largest(ours.iter().zip(theirs).map(off))
-}
-
-fn rows(ran: &Ran, driver: &Path) -> Result<Vec<[f64; 6]>> {
-    let row = |line: &str| -> Option<[f64; 6]> {
-        let numbers: Vec<f64> = line
-            .split_whitespace()
-            .map_while(|word| word.parse().ok())
-            .collect();
-        numbers.try_into().ok()
-    };
-    ran.stdout
-        .lines()
-        .map(|line| row(line).ok_or_else(|| unreadable(driver, line)))
-        .collect()
-}
-
-fn unreadable(program: &Path, line: &str) -> Error {
-    let cause = std::io::Error::other(format!("unexpected output: {line}"));
-    Error::file("read output of", program)(cause)
 }
 
 /// The header's own test; the deviation is the number of figures that miss.
@@ -183,27 +94,24 @@ fn self_test(compiler: &Path, law: &Portable, scratch: &Path) -> Result<Agreemen
 }
 
 /// Time of a call of the C law over that of a call of the law itself, on the random path of a body on a wall.
-fn cost(driver: &Path, law: &Portable) -> Result<Agreement> {
+fn cost(driver: &Driver, law: &Portable) -> Result<Agreement> {
     let radius = law.radius();
     let most = law.file.valid.displacement_over_radius_max * radius;
     let path = paths::random(most, STEPS, 12);
-    let text = input([radius, 0.0], &path);
-    let ran = run(Command::new(driver).arg(PASSES.to_string()), &text)?.or_fail("run", driver)?;
-    let theirs: f64 = ran
-        .stdout
-        .split_whitespace()
-        .next()
-        .and_then(|word| word.parse().ok())
-        .ok_or_else(|| unreadable(driver, &ran.stdout))?;
-    let mut ours = f64::INFINITY;
-    for _ in 0..PASSES {
+    let (runs, passes) = PASSES;
+    let calls = passes as f64 * path.len() as f64;
+    let (mut ours, mut theirs) = (f64::INFINITY, f64::INFINITY);
+    for _ in 0..runs {
+        theirs = theirs.min(driver.seconds(radius, &path, passes)? / calls);
         let start = Instant::now();
-        black_box(paths::sum(&law.core, radius, black_box(&path)));
-        ours = ours.min(start.elapsed().as_secs_f64() / path.len() as f64);
+        for _ in 0..passes {
+            black_box(paths::sum(&law.core, radius, black_box(&path)));
+        }
+        ours = ours.min(start.elapsed().as_secs_f64() / calls);
     }
     Ok(Agreement {
         subject: format!(
-            "cost of a call over ours ({:.0} ns over {:.0} ns)",
+            "cost of a call over ours ({:.1} ns over {:.1} ns)",
             theirs * 1e9,
             ours * 1e9
         ),

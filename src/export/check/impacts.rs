@@ -2,6 +2,7 @@
 
 use super::process::{Ran, run};
 use super::{Agreement, largest};
+use crate::contact::rebound::Rebound;
 use crate::export::portable::Portable;
 use crate::export::reference::Impact;
 use crate::export::{Artifact, describe};
@@ -41,10 +42,46 @@ pub(super) fn build(folder: &Path, arguments: &[&Path]) -> Result<()> {
 
 /// What a code found out of one impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Found {
-    restitution: f64,
-    max_force: f64,
-    max_overlap: f64,
+pub(super) struct Found {
+    pub(super) restitution: f64,
+    pub(super) max_force: f64,
+    pub(super) max_overlap: f64,
+}
+
+impl Found {
+    /// Figures from the rows `step overlap rate force` that `program` printed of an impact at `velocity` (m/s).
+    ///
+    /// # Errors
+    /// [`Error::File`] without rows.
+    pub(super) fn of(ran: &Ran, velocity: f64, program: &Path) -> Result<Self> {
+        let mut found = None;
+        for [_, overlap, rate, force] in ran.rows() {
+            let so_far = found.unwrap_or(Found {
+                restitution: 0.0,
+                max_force: 0.0,
+                max_overlap: 0.0,
+            });
+            found = Some(Found {
+                restitution: -rate / velocity,
+                max_force: so_far.max_force.max(force),
+                max_overlap: so_far.max_overlap.max(overlap),
+            });
+        }
+        found.ok_or_else(|| {
+            let cause = std::io::Error::other(ran.stdout.clone());
+            Error::file("read the rows of", program)(cause)
+        })
+    }
+
+    /// Relative deviations of e, F* and delta*.
+    pub(super) fn deviations(&self, figures: &Rebound) -> [f64; 3] {
+        [
+            (self.restitution, figures.restitution),
+            (self.max_force, figures.max_force),
+            (self.max_overlap, figures.max_displacement),
+        ]
+        .map(|(found, expected)| (found / expected - 1.0).abs())
+    }
 }
 
 /// Runs every reference impact with the program and arguments `start` makes; first line of its output, and how well it agrees.
@@ -64,28 +101,14 @@ pub(super) fn hold(
         let input = folder.join("impact.in");
         let ran = run(&mut command, "")?.or_fail("run", &input)?;
         version = ran.stdout.lines().next().unwrap_or_default().to_owned();
-        let found = read(&ran, impact.velocity).ok_or_else(|| {
-            Error::file("read the rows of", &input)(std::io::Error::other(ran.stdout.clone()))
-        })?;
-        let f = &impact.figures;
-        let pairs = [
-            (found.restitution, f.restitution),
-            (found.max_force, f.max_force),
-            (found.max_overlap, f.max_displacement),
-        ];
-        // a NaN must not count as agreement
-        let deviation = largest(
-            pairs
-                .iter()
-                .map(|(found, expected)| (found / expected - 1.0).abs()),
-        );
+        let found = Found::of(&ran, impact.velocity, &input)?;
         agreements.push(Agreement {
             subject: format!(
                 "{}, {} m/s: e, F*, delta*",
                 describe::bodies(impact),
                 impact.velocity
             ),
-            deviation,
+            deviation: largest(found.deviations(&impact.figures)),
             allowed: ALLOWED,
         });
     }
@@ -104,33 +127,6 @@ fn variables(impact: &Impact) -> [(&'static str, String); 6] {
     ]
 }
 
-/// Figures from the rows `step overlap rate force` of a run; none without rows.
-fn read(ran: &Ran, velocity: f64) -> Option<Found> {
-    let rows = ran.stdout.lines().filter_map(row);
-    rows.fold(None, |found: Option<Found>, [_, overlap, rate, force]| {
-        let so_far = found.unwrap_or(Found {
-            restitution: 0.0,
-            max_force: 0.0,
-            max_overlap: 0.0,
-        });
-        Some(Found {
-            restitution: -rate / velocity,
-            max_force: so_far.max_force.max(force),
-            max_overlap: so_far.max_overlap.max(overlap),
-        })
-    })
-}
-
-/// The four numbers of a row.
-fn row(line: &str) -> Option<[f64; 4]> {
-    let mut numbers = [0.0; 4];
-    let mut words = line.split_whitespace();
-    for number in &mut numbers {
-        *number = words.next()?.parse().ok()?;
-    }
-    words.next().is_none().then_some(numbers)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -143,7 +139,7 @@ mod tests {
             stdout: stdout.to_owned(),
             stderr: String::new(),
         };
-        let found = read(&ran, 2.0).unwrap();
+        let found = Found::of(&ran, 2.0, Path::new("in")).unwrap();
         assert_eq!(
             found,
             Found {

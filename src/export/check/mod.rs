@@ -1,12 +1,14 @@
 //! Check: the exported law compiled and run in the codes that are installed, held against the law itself.
 
 mod c;
+pub mod driver;
 mod impacts;
 pub mod lammps;
 pub mod liggghts;
 mod native;
 pub mod paths;
 mod process;
+pub mod series;
 mod shim;
 
 pub use c::CompilerCheck;

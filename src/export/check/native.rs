@@ -1,13 +1,13 @@
 //! Check of the native lines: impacts in the installed codes, held against what the projection predicts.
 
-use super::process::{Ran, find_program, run};
+use super::impacts::Found;
+use super::process::{find_program, run};
 use super::{Agreement, Check, Finding, largest};
-use crate::contact::rebound::Rebound;
+use crate::Result;
 use crate::export::native::{self, Code, Lines, Model, Target};
 use crate::export::portable::Portable;
 use crate::files::write_atomic;
 use crate::law::Form;
-use crate::{Error, Result};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -19,9 +19,6 @@ const RUN: f64 = 1.1;
 const EVERY: usize = 5;
 /// Relative deviation allowed of e and F*: steps of codes that add up increments.
 const ALLOWED: f64 = 1e-3;
-/// The same for MDR over the flattening over R. In LAMMPS its particles grow as they flatten and not in the prediction: the
-/// cap $\pi R \delta^2$ spread over the sphere raises the overlap by $\delta^2/(4R)$.
-const ALLOWED_MDR: f64 = 0.25;
 
 /// The native lines in one code.
 #[derive(Debug, Clone, Copy)]
@@ -162,9 +159,8 @@ impl Trial<'_> {
             }
         }
         let ran = run(&mut command, "")?.or_fail("run", file)?;
-        let found = read(&ran, relative).ok_or_else(|| {
-            Error::file("read the rows of", file)(std::io::Error::other(ran.stdout.clone()))
-        })?;
+        let [e, force, _] = Found::of(&ran, relative, file)?.deviations(&expected);
+        let flattening = expected.max_displacement / self.target.radius;
         let bodies = if pair {
             "two spheres"
         } else {
@@ -172,36 +168,8 @@ impl Trial<'_> {
         };
         Ok(Agreement {
             subject: format!("{}: {bodies}, {relative} m/s: e, F*", self.lines.style),
-            deviation: deviation(found, &expected),
-            allowed: match self.model {
-                Model::Mdr { .. } => ALLOWED_MDR * expected.max_displacement / self.target.radius,
-                _ => ALLOWED,
-            },
+            deviation: largest([e, force]),
+            allowed: self.model.left_out(flattening).max(ALLOWED),
         })
     }
-}
-
-/// Largest relative deviation of restitution and largest force.
-fn deviation([restitution, force]: [f64; 2], expected: &Rebound) -> f64 {
-    largest([
-        (restitution / expected.restitution - 1.0).abs(),
-        (force / expected.max_force - 1.0).abs(),
-    ])
-}
-
-/// Restitution and largest force from the rows `step overlap rate force`; none without rows.
-fn read(ran: &Ran, velocity: f64) -> Option<[f64; 2]> {
-    let row = |line: &str| -> Option<[f64; 4]> {
-        let words: Vec<&str> = line.split_whitespace().collect();
-        let numbers: Vec<f64> = words.iter().map_while(|word| word.parse().ok()).collect();
-        (numbers.len() == words.len())
-            .then(|| numbers.try_into().ok())
-            .flatten()
-    };
-    let mut found = None;
-    for [_, _, rate, force] in ran.stdout.lines().filter_map(row) {
-        let [_, most] = found.unwrap_or([0.0, 0.0]);
-        found = Some([-rate / velocity, force.max(most)]);
-    }
-    found
 }

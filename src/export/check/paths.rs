@@ -56,6 +56,11 @@ pub fn random(most: f64, steps: usize, seed: u64) -> Vec<f64> {
     path
 }
 
+/// What is compared along a random path.
+pub(super) fn subject(bodies: &str, steps: usize) -> String {
+    format!("random paths, {bodies}, {steps} steps: force, stiffness, radius, flattening, energy")
+}
+
 /// What `law` says along a path, and its recoverable energy (J); the contact is forgotten where the overlap is 0.
 #[must_use]
 pub fn pressed(law: &FittedLaw, bodies: Bodies, radius: f64, path: &[f64]) -> Vec<(Pressed, f64)> {

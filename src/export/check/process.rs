@@ -57,6 +57,18 @@ pub fn run(command: &mut Command, input: &str) -> Result<Ran> {
 }
 
 impl Ran {
+    /// Lines of the standard output that are `N` numbers and nothing else.
+    pub fn rows<const N: usize>(&self) -> impl Iterator<Item = [f64; N]> {
+        self.stdout.lines().filter_map(|line| {
+            let mut words = line.split_whitespace();
+            let mut numbers = [0.0; N];
+            for number in &mut numbers {
+                *number = words.next()?.parse().ok()?;
+            }
+            words.next().is_none().then_some(numbers)
+        })
+    }
+
     /// The output, if the program succeeded.
     ///
     /// # Errors
@@ -72,5 +84,21 @@ impl Ran {
         };
         let cause = std::io::Error::other(words.trim().to_owned());
         Err(Error::file(action, file)(cause))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_are_lines_of_so_many_numbers_alone() {
+        let ran = Ran {
+            success: true,
+            stdout: "Step v f\n 0 2.0 0.0\n 5 3e-6 7\n1 2\n1 2 3 4\nLoop time of 1\n".to_owned(),
+            stderr: String::new(),
+        };
+        let rows: Vec<[f64; 3]> = ran.rows().collect();
+        assert_eq!(rows, [[0.0, 2.0, 0.0], [5.0, 3e-6, 7.0]]);
     }
 }

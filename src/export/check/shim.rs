@@ -1,12 +1,13 @@
 //! Checks through a shim: dialects whose code cannot run here, compiled and run in a stand-in for its interface.
 
+use super::impacts::Found;
 use super::process::{find_program, run};
 use super::{Agreement, Check, Finding, largest};
+use crate::Result;
 use crate::export::portable::Portable;
 use crate::export::reference::Impact;
 use crate::export::{Artifact, deme, describe, mercurydpm};
 use crate::files::write_atomic;
-use crate::{Error, Result};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -136,23 +137,7 @@ fn deviation(program: &Path, impact: &Impact) -> Result<f64> {
         format!("{:.0}", RUN * STEPS),
     ]);
     let ran = run(&mut command, "")?.or_fail("run", program)?;
-    let (mut rate, mut force, mut overlap) = (f64::NAN, 0.0f64, 0.0f64);
-    for line in ran.stdout.lines() {
-        let row: Vec<f64> = line
-            .split_whitespace()
-            .filter_map(|word| word.parse().ok())
-            .collect();
-        let [_, x, v, f] = row[..] else {
-            let cause = std::io::Error::other(format!("unexpected output: {line}"));
-            return Err(Error::file("read output of", program)(cause));
-        };
-        (rate, force, overlap) = (v, force.max(f), overlap.max(x));
-    }
-    let pairs = [
-        (-rate / impact.velocity, figures.restitution),
-        (force, figures.max_force),
-        (overlap, figures.max_displacement),
-    ];
-    let off = |(found, expected): (f64, f64)| (found / expected - 1.0).abs();
-    Ok(largest(pairs.into_iter().map(off)))
+    Ok(largest(
+        Found::of(&ran, impact.velocity, program)?.deviations(figures),
+    ))
 }

@@ -1,11 +1,14 @@
 //! Summary of the projections: every fitted model with its errors and its lines, and the runnable inputs beside it.
 
 use super::lines::{input, of};
-use super::{Projection, Target, project, target};
+use super::{Model, Projection, Target, project, target};
 use crate::Result;
 use crate::export::portable::Portable;
 use crate::export::{Artifact, describe};
 use std::fmt::Write;
+
+/// How near to its bound an exponent counts as held by it.
+const AT_BOUND: f64 = 1e-3;
 
 /// The files: `<identifier>_native.md` with everything, and a runnable impact for each code that can be run.
 ///
@@ -57,6 +60,7 @@ fn summary(law: &Portable, target: &Target, projections: &[Projection]) -> Strin
                 hit.restitution, hit.max_force
             );
         }
+        text.push_str(&beyond(&projection.model, target));
         for lines in of(&projection.model, law) {
             let proof = match lines.input {
                 Some(file) => format!("runnable: `{file}`"),
@@ -72,4 +76,27 @@ fn summary(law: &Portable, target: &Target, projections: &[Projection]) -> Strin
         }
     }
     text
+}
+
+/// What a user of a model has to know beside its errors: what a run in its code does that the prediction leaves out, and
+/// what keeps it from fitting better.
+fn beyond(model: &Model, target: &Target) -> String {
+    let deepest = target
+        .impacts
+        .iter()
+        .map(|(velocity, _)| model.rebound(target.radius, target.mass, *velocity));
+    let deepest = deepest.fold(0.0, |most: f64, hit| most.max(hit.max_displacement));
+    match model {
+        Model::Mdr { .. } => format!(
+            "\nThe errors are those of the model by its equations. In LAMMPS its particles grow as they flatten: e and F* of a run there\n\
+             differ from the equations by up to delta*/(4 R), {:.1} % at the fastest impact, on top of the errors above.\n",
+            100.0 * model.left_out(deepest / target.radius)
+        ),
+        Model::Eepa(law) if law.exponent < 1.0 + AT_BOUND => {
+            "\nThe exponent is at its bound of 1. Below it LIGGGHTS, which takes the largest overlap back once the force is zero by the\n\
+             ratio of linear springs, would throw bodies out faster than the equations say.\n"
+                .to_owned()
+        }
+        _ => String::new(),
+    }
 }
