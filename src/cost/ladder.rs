@@ -161,6 +161,11 @@ impl Ladder<'_> {
                 p.grid.dt_share = share
             });
         }
+        if self.base.grid.remedies.long_step > 0.0 {
+            vary("time step", "one for all cells".to_owned(), &|p| {
+                p.grid.remedies.long_step = 0.0
+            });
+        }
         for coarse in [0.2, 0.1, 0.05, 0.025] {
             vary("far cells", format!("{coarse} R"), &|p| {
                 p.grid.coarse = coarse

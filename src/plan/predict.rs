@@ -1,8 +1,8 @@
 //! Prediction: points, steps and seconds of a run, from its plan alone.
 //!
-//! Measured with `impactlaw study cases/study-480.toml` on one core of a 2-core machine (Intel Xeon of 2.6 GHz with 2 MB of
-//! second-level cache a core); another machine scales all seconds alike. On twelve impacts drawn at random (E/Y 20 to 2560,
-//! $\rho V^2/Y$ 1e-4 to 3, nu 0 to 0.45, tolerance 0.01 to 0.05) the seconds were right within a factor of 1.4.
+//! Steps were measured on 66 impacts (E/Y 40 to 5000, $\rho V^2/Y$ 0.001 to 51, tolerance 0.01 and 0.02), seconds on one core
+//! of a 2-core machine (Intel Xeon of 2.6 GHz with 2 MB of second-level cache a core); another machine scales all seconds
+//! alike.
 
 use super::{Geometry, Plan, graded, severity};
 use crate::material::Material;
@@ -10,30 +10,36 @@ use crate::scheme::{Layout, Reference, TimeStep, Transfer};
 
 /// Point-steps a second and core of quadratic splines in the axisymmetric section, contact and outputs included.
 const THROUGHPUT: f64 = 5.5e7;
+/// The same where cells take steps of their own, with what it takes to sort them.
+const LEVELS_THROUGHPUT: f64 = 3.5e7;
 /// The same in three dimensions.
 const SOLID_THROUGHPUT: f64 = 8e6;
 /// Sweeps over the points that a refresh of the stable step costs.
-const REFRESH_SWEEPS: f64 = 4.0;
-/// Share of the time step of the undeformed body that remains on average, $\rho V^2/Y$ against steps over those that the
-/// undeformed body would take, for E/Y of 160 and more: thin cells shorten the step until erosion holds it, and a sheet
-/// that spreads fast is flat sooner.
-const SQUEEZE: [(f64, f64); 15] = [
-    (0.02, 1.0),
-    (0.06, 1.3),
-    (0.128, 1.9),
-    (0.256, 3.4),
-    (0.512, 9.8),
-    (0.8, 20.5),
-    (1.15, 41.0),
-    (2.0, 51.0),
-    (3.2, 59.0),
-    (4.1, 75.0),
-    (6.4, 105.0),
-    (9.2, 122.0),
-    (12.8, 70.0),
-    (25.6, 41.0),
-    (51.2, 30.0),
+const REFRESH_SWEEPS: f64 = 6.0;
+/// $\rho V^2/Y$ against steps, as the mean over all points, over those that the undeformed body would take, for E/Y of 160 to
+/// 5000: thin cells need short steps until erosion holds them, and a sheet that spreads fast is flat sooner. Measured with 12
+/// to 34 cells a contact radius.
+const SQUEEZE: [(f64, f64); 17] = [
+    (0.001, 0.9),
+    (0.01, 1.0),
+    (0.03, 1.15),
+    (0.06, 1.35),
+    (0.12, 1.7),
+    (0.2, 2.25),
+    (0.32, 3.1),
+    (0.5, 3.9),
+    (0.8, 4.8),
+    (1.2, 7.4),
+    (2.0, 11.0),
+    (3.2, 15.7),
+    (5.0, 29.5),
+    (8.0, 69.0),
+    (12.8, 35.0),
+    (25.6, 18.0),
+    (51.2, 11.5),
 ];
+/// Steps where one is taken for all over the mean where cells take their own, at $\rho V^2/Y$ of 0.3 to 3.
+const ONE_STEP: f64 = 3.0;
 /// Cells a contact radius with which [`SQUEEZE`] was measured, at $\rho V^2/Y \ge 1$.
 const MEASURED_CELLS: f64 = 28.0;
 
@@ -45,17 +51,23 @@ pub fn with_prediction(mut plan: Plan, material: &Material) -> Plan {
     let steps = duration / dt;
     let squeezed = steps * squeeze(&plan, material);
     let speed = plan.velocity / (material.young_modulus / material.density).sqrt();
-    let covered = if plan.grid.remedies.is_large() {
-        0.1
-    } else {
-        0.5
-    };
-    let interval = (covered * plan.grid.fine / (speed * dt) * squeezed / steps).clamp(1.0, 50.0);
     plan.points = points(&plan);
     plan.steps = squeezed as u64;
-    plan.seconds =
-        plan.points as f64 * squeezed * (1.0 + REFRESH_SWEEPS / interval) / throughput(&plan);
+    let work = plan.points as f64 * squeezed;
+    plan.seconds = if takes_levels(&plan) {
+        work / LEVELS_THROUGHPUT
+    } else {
+        let interval = (0.5 * plan.grid.fine / (speed * dt) * squeezed / steps).clamp(1.0, 50.0);
+        work * (1.0 + REFRESH_SWEEPS / interval) / throughput(&plan)
+    };
     plan
+}
+
+/// Whether cells take steps of their own.
+fn takes_levels(plan: &Plan) -> bool {
+    let scheme = &plan.scheme;
+    let applies = scheme.transfer == Transfer::Persistent && scheme.time_step == TimeStep::Stable;
+    applies && plan.grid.remedies.long_step > 0.0
 }
 
 /// The plan with all cells `share` times as large.
@@ -129,19 +141,22 @@ fn squeeze(plan: &Plan, material: &Material) -> f64 {
         return 1.0;
     }
     let severity = severity(material, plan.velocity * plan.angle.cos());
-    if !plan.grid.remedies.is_large() {
-        return interpolated(severity);
-    }
-    let soft = material
+    let ratio = material
         .flow
         .map_or(1.0, |f| material.young_modulus / f.yield_strength / 160.0);
+    let soft = ratio.min(1.0).powf(0.25);
+    if !plan.grid.remedies.is_large() {
+        return (interpolated(severity) * soft).max(interpolated(severity).min(1.0));
+    }
     let cells = plan.estimate.contact_radius / plan.grid.fine;
     // finer cells are squeezed further before erosion stops it
-    let finer = (cells / (MEASURED_CELLS * severity.min(1.0).powf(0.4))).powf(1.5);
-    let most = 1.5 / plan.grid.remedies.least_step;
-    (interpolated(severity) * finer * soft.min(1.0).powf(0.35))
-        .min(most.max(interpolated(severity)))
-        .max(1.0)
+    let finer = (cells / (MEASURED_CELLS * severity.min(1.0).powf(0.4))).powf(0.5);
+    let levels = (interpolated(severity) * finer * soft).max(1.0);
+    if takes_levels(plan) {
+        return levels;
+    }
+    // one step for all: the shortest
+    (levels * ONE_STEP).min(1.0 / plan.grid.remedies.least_step)
 }
 
 /// [`SQUEEZE`] between its entries, straight in the logarithms.

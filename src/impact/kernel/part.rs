@@ -335,8 +335,8 @@ mod tests {
         let flat: Vec<[f64; 2]> = model.places.iter().map(|p| [0.0, -0.9 * p[1]]).collect();
         let still = vec![[0.0; 2]; flat.len()];
         let (rest, thin) = (
-            model.points.steepness(&still),
-            model.points.steepness(&flat),
+            model.points.steepness(&still, &model.recip_mass),
+            model.points.steepness(&flat, &model.recip_mass),
         );
         for (rest, thin) in rest.iter().zip(&thin) {
             // between a tenth of the height with the same width, and both

@@ -17,7 +17,7 @@ type Crushed<'a> = Run<'a, Axisymmetric, Metal, Contact<Axisymmetric, 9>, (), 9>
 /// E/Y = 320 and rho V^2/Y = 1 on a coarse grid.
 fn planned() -> Plan {
     let text = "[particle]\nradius = \"1 mm\"\n[material]\ndensity = \"1000 kg/m3\"\nyoung_modulus = \"1 GPa\"\n\
-                poisson_ratio = 0.35\nyield_strength = \"3.125 MPa\"\n[impact]\nvelocities = [\"55.9 m/s\"]\n";
+                poisson_ratio = 0.35\nyield_strength = \"3.125 MPa\"\n[impact]\nvelocities = [\"55.9 m/s\"]\n[accuracy]\ntolerance = 0.02\n";
     let case = crate::case::Case::parse(text, Path::new("kept.toml")).unwrap();
     let plan = crate::plan::plan(&case, 55.9);
     crate::plan::with_cells(plan, 2.0, &case.material)
