@@ -10,7 +10,7 @@ use impactlaw::bed::machine::Machine;
 use impactlaw::bed::normals::Model;
 use impactlaw::bed::step::{Bed, Normals, Parts};
 use impactlaw::contact::NormalLaw;
-use impactlaw::contact::pair::{Flat, Series};
+use impactlaw::contact::pair::{Alike, Flat};
 use impactlaw::material::{Flow, Material, YIELD_PRESSURE_RATIO};
 use impactlaw::theory::hertz::Hertz;
 use impactlaw::theory::thornton::Thornton;
@@ -68,7 +68,7 @@ fn bed<L: NormalLaw, C: ContactLaw>(law: &L, effects: C) -> Bed<C> {
         grains.motions[index].velocity = velocity;
     }
     let normals = Normals {
-        pair: Box::new(Model(Series(law.clone()))),
+        pair: Box::new(Model(Alike(law.clone()))),
         wall: Box::new(Model(Flat(law.clone()))),
     };
     let parts = Parts {

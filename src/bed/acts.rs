@@ -10,6 +10,9 @@ use crate::Result;
 const PISTON_GAP: f64 = 1e-3;
 /// Part of the bed's height the piston may travel without meeting the seating stress.
 const LONGEST_APPROACH: f64 = 0.5;
+/// Way of the piston, over the mean radius of the grains, on which the stress must not fall below the seating stress: a
+/// few grains above the rest carry more than that for a while, then give way. Less where the strain asked for is less.
+const LASTING: f64 = 0.5;
 /// Time for a compression to be sampled over, over what the strain alone takes: the piston has to come near first.
 const APPROACH: f64 = 1.2;
 
@@ -57,6 +60,7 @@ impl Run<'_> {
             growth: self.growth(stage),
             checked: self.place.checked,
             slow_since: None,
+            carried_since: None,
         };
         Ok(())
     }
@@ -80,7 +84,7 @@ impl Run<'_> {
             };
             match order.change {
                 Change::Drive(motion) => self.bed.machine_mut().drive_as(body, motion),
-                Change::Remove => self.intervene(|bed| bed.machine_mut().remove(body)),
+                Change::Remove => self.intervene(|bed| bed.take_out(body)),
                 Change::Release => self.intervene(|bed| bed.machine_mut().release(body)),
             }
         }
@@ -115,11 +119,39 @@ impl Run<'_> {
             let since = self.place.slow_since.unwrap_or(self.time());
             self.place.slow_since = slow.then_some(since);
         }
-        if let Stage::Compress { seating_stress, .. } = stage
-            && self.progress.seated_height.is_none()
-            && self.view().stress(self.bed.as_ref()) >= *seating_stress
+        if let Stage::Compress {
+            seating_stress,
+            strain,
+            ..
+        } = stage
+            && survey.is_some()
         {
-            self.progress.seated_height = Some(self.view().face(self.bed.as_ref()));
+            self.seat(*seating_stress, *strain);
+        }
+    }
+
+    /// Seats the piston where it first met a stress that has lasted since; strain counts from there.
+    fn seat(&mut self, seating_stress: f64, strain: f64) {
+        if self.progress.seated_height.is_some() {
+            return;
+        }
+        let (face, stress) = (
+            self.view().face(self.bed.as_ref()),
+            self.view().stress(self.bed.as_ref()),
+        );
+        if stress < seating_stress {
+            self.place.carried_since = None;
+            return;
+        }
+        let since = *self.place.carried_since.get_or_insert(face);
+        if since - face < (LASTING * self.scene.radius()).min(strain * since) {
+            return;
+        }
+        self.progress.seated_height = Some(since);
+        let stage = &self.progress.stage;
+        let begun = self.rows.iter().rposition(|row| row.stage != *stage);
+        for row in &mut self.rows[begun.map_or(0, |last| last + 1)..] {
+            row.strain = ((since - row.height_m) / since).max(0.0);
         }
     }
 

@@ -68,6 +68,8 @@ pub trait AnyBed: Send + Keep {
     fn soften(&mut self, factor: f64);
     /// See [`Bed::list_again`].
     fn list_again(&mut self);
+    /// See [`Bed::take_out`].
+    fn take_out(&mut self, body: usize);
     /// Lets grains come in; their neighbours are listed anew.
     fn join(&mut self, newcomers: &[Newcomer]);
     /// See [`Bed::start_account`].
@@ -117,6 +119,10 @@ impl<C: ContactLaw> AnyBed for Bed<C> {
 
     fn list_again(&mut self) {
         Bed::list_again(self);
+    }
+
+    fn take_out(&mut self, body: usize) {
+        Bed::take_out(self, body);
     }
 
     fn join(&mut self, newcomers: &[Newcomer]) {

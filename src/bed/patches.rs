@@ -277,6 +277,23 @@ impl<C: ContactLaw, const K: usize> Family<C, K> {
         self.candidates = candidates;
     }
 
+    pub(super) fn release(&mut self, surface: usize, grains: &mut Grains, softening: f64) {
+        let plastic: Vec<(usize, usize, f64)> = self
+            .all()
+            .enumerate()
+            .filter(|(_, held)| held.surface == surface)
+            .map(|(at, held)| {
+                let elastic = softening * held.elastic_energy(grains);
+                (at, held.grain, C::work(&held.patch.memory) - elastic)
+            })
+            .collect();
+        for (at, grain, lost) in plastic {
+            grains.plastic[grain] += lost;
+            self.patches[at] = Patch::default();
+            self.histories[at / (CHUNK * K)].forget(at % (CHUNK * K));
+        }
+    }
+
     pub(super) fn start_account(&mut self, grains: &Grains, softening: f64) {
         let held: Vec<f64> = self
             .all()

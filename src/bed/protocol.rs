@@ -68,8 +68,10 @@ pub struct Place {
     pub checked: u64,
     /// Since when the grains have been slow, s; none while they are not.
     pub slow_since: Option<f64>,
+    /// Height (m) of the piston's face since which the stress has not been below the seating stress.
+    pub carried_since: Option<f64>,
 }
-keep_fields!(Place: begun, time, step, next_row, interval, face, growth, checked);
+keep_fields!(Place: begun, time, step, next_row, interval, face, growth, checked, slow_since, carried_since);
 
 /// A bed going through stages.
 pub struct Run<'a> {

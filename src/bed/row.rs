@@ -20,7 +20,7 @@ pub struct Row {
     pub time_step_s: f64,
     /// Height of the piston's face, or of the highest grain while the piston is parked, m.
     pub height_m: f64,
-    /// Compression since the seating stress was reached, over the height then.
+    /// Compression since the seating stress was reached for good, over the height then.
     pub strain: f64,
     /// Stress on the piston.
     #[serde(rename = "stress_Pa")]
@@ -99,7 +99,7 @@ pub struct Progress {
     pub stage: String,
     /// Speed of the piston, m/s; 0 while it is parked.
     pub piston_speed: f64,
-    /// Height at the seating stress, m; none before.
+    /// Height from which on the seating stress has lasted, m; none before that is known.
     pub seated_height: Option<f64>,
     /// Energy balance at the start of the account, J.
     pub first_balance: f64,

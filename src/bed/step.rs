@@ -169,6 +169,14 @@ impl<C: ContactLaw> Bed<C> {
         self.listed.due = true;
     }
 
+    /// Takes a body out at once. What its contacts hold goes with it; what they have dissipated stays in the account.
+    pub fn take_out(&mut self, body: usize) {
+        let softening = self.law.softening();
+        self.surfaces.release(body, &mut self.grains, softening);
+        self.machine.remove(body);
+        self.list_again();
+    }
+
     /// Neighbours are listed and forces evaluated anew, after grains have come in.
     pub fn renew(&mut self) {
         self.listed.due = true;

@@ -114,6 +114,13 @@ impl<C: ContactLaw> Surfaces<C> {
         self.solids.book_softening(grains, factor) + self.meshes.book_softening(grains, factor)
     }
 
+    /// Ends the contacts with a surface, their law `softening` times as stiff: what plastic flow has dissipated in them is
+    /// handed to the grains, what they hold is gone.
+    pub fn release(&mut self, surface: usize, grains: &mut Grains, softening: f64) {
+        self.solids.release(surface, grains, softening);
+        self.meshes.release(surface, grains, softening);
+    }
+
     /// Force and torque of all surfaces on a grain.
     #[inline(always)]
     #[must_use]

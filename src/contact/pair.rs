@@ -19,11 +19,10 @@
 //! | [`Flat`] | a grain on a rigid surface | $\delta_1 = \delta$, $R' = R$ |
 //! | [`Twins`] | two grains of one material and one radius | $\delta_i = \delta/2$, $R' = R$ |
 //! | [`Alike`] | two grains of one material and any radii | $\delta_i = \delta/2$, $R' = 2 R_e$ |
-//! | [`Series`] | the same, for codes that know one body at a time | solved, $R_i' = R_i$ |
 //! | [`Side`] twice | bodies of two materials | solved by [`balance`], each side with its own history |
 
 use super::NormalLaw;
-use crate::tape::{Keep, keep_fields};
+use crate::tape::Keep;
 use std::fmt::Debug;
 
 /// State of a pressed contact, SI units.
@@ -259,126 +258,5 @@ pub fn in_series([a, b]: [Side; 2]) -> Side {
             force: 0.5 * (a.force + b.force),
             stiffness: 0.0,
         }
-    }
-}
-
-/// Relative mismatch of the two forces of a [`Series`] that counts as rounding.
-const FORCE_ROUNDING: f64 = 1e-14;
-
-/// Two grains of one material and any radii, each side pressed like its own sphere on a plane: a contact law in code that
-/// knows one body at a time. [`Alike`] is nearer to the truth: radii of 1:2 are 2 % too stiff here, of 1:4 7 %.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Series<L>(pub L);
-
-/// What a [`Series`] contact remembers.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Sides<H> {
-    /// History of each side.
-    pub histories: [H; 2],
-    /// Share of the overlap the first side took last: where the next search starts (0: none yet).
-    pub share: f64,
-}
-
-keep_fields!(impl [H: Keep] Sides<H>: histories, share);
-
-/// One side of a series contact at a trial flattening.
-struct Trial<H> {
-    force: f64,
-    stiffness: f64,
-    history: H,
-}
-
-impl<L: NormalLaw> Series<L> {
-    fn side(&self, flattening: f64, radius: f64, history: &L::History) -> Trial<L::History> {
-        let mut history = *history;
-        let x = flattening / radius;
-        let force = radius * radius * self.0.force(x, &mut history);
-        Trial {
-            force,
-            stiffness: radius * self.0.stiffness(x, &history),
-            history,
-        }
-    }
-
-    /// Flattening of the first side at which both forces agree: Newton kept inside a bracket that bisection can finish.
-    fn balance(&self, overlap: f64, radii: [f64; 2], sides: &Sides<L::History>) -> f64 {
-        let (mut low, mut high) = (0.0, overlap);
-        let mut first = if sides.share > 0.0 {
-            sides.share * overlap
-        } else {
-            0.5 * overlap
-        };
-        for _ in 0..MAX_SEARCH {
-            let a = self.side(first, radii[0], &sides.histories[0]);
-            let b = self.side(overlap - first, radii[1], &sides.histories[1]);
-            let excess = a.force - b.force;
-            if excess.abs() <= FORCE_ROUNDING * a.force.max(b.force) {
-                break;
-            }
-            if excess > 0.0 {
-                high = first;
-            } else {
-                low = first;
-            }
-            let newton = first - excess / (a.stiffness + b.stiffness);
-            let next = if newton > low && newton < high {
-                newton
-            } else {
-                0.5 * (low + high)
-            };
-            if next == first {
-                break;
-            }
-            first = next;
-        }
-        first
-    }
-}
-
-impl<L: NormalLaw> Press for Series<L> {
-    type History = Sides<L::History>;
-
-    fn press(&self, overlap: f64, radii: [f64; 2], sides: &mut Self::History) -> Pressed {
-        if overlap <= 0.0 {
-            return Pressed::default();
-        }
-        let first = self.balance(overlap, radii, sides);
-        let a = self.side(first, radii[0], &sides.histories[0]);
-        let b = self.side(overlap - first, radii[1], &sides.histories[1]);
-        let mut touched = a.history;
-        *sides = Sides {
-            histories: [a.history, b.history],
-            share: first / overlap,
-        };
-        let both = a.stiffness + b.stiffness;
-        Pressed {
-            force: 0.5 * (a.force + b.force),
-            stiffness: if both > 0.0 {
-                a.stiffness * b.stiffness / both
-            } else {
-                0.0
-            },
-            contact_radius: radii[0] * self.0.state(first / radii[0], &mut touched).contact_radius,
-            flattening: [first, overlap - first],
-        }
-    }
-
-    fn elastic_energy(&self, overlap: f64, radii: [f64; 2], sides: &Self::History) -> f64 {
-        let first = sides.share * overlap;
-        let energy = |radius: f64, flattening: f64, history| {
-            radius.powi(3) * self.0.elastic_energy(flattening / radius, history)
-        };
-        energy(radii[0], first, &sides.histories[0])
-            + energy(radii[1], overlap - first, &sides.histories[1])
-    }
-
-    /// Both sides have their largest flattening at the same time, that of the largest force.
-    fn largest_overlap(&self, radii: [f64; 2], sides: &Self::History) -> Option<f64> {
-        let [first, second] = &sides.histories;
-        Some(self.0.largest(first)? * radii[0] + self.0.largest(second)? * radii[1])
-    }
-
-    fn valid_to(&self) -> f64 {
-        self.0.valid_to()
     }
 }

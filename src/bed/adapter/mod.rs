@@ -34,7 +34,7 @@
 
 use super::law::{ContactLaw, Losses, Push};
 use crate::contact::NormalLaw;
-use crate::contact::pair::{Flat, Press, Pressed, Series, Sides};
+use crate::contact::pair::{Alike, Flat, Press, Pressed};
 use crate::{Error, Result};
 use parry3d::math::Vector;
 use rapier3d::dynamics::{IntegrationParameters, RigidBodyActivation, RigidBodyHandle};
@@ -69,7 +69,7 @@ struct Subject {
 /// A contact under way.
 #[derive(Debug, Clone, Copy)]
 struct Touching<H, M> {
-    sides: Sides<H>,
+    history: H,
     memory: M,
     push: Push,
     normal: Vector,
@@ -90,7 +90,7 @@ struct Load {
 /// to each other, with the radii of curvature given by [`Ruled::rule_curved`]: right for convex bodies that meet at one
 /// place, not for a block lying flat on another. Rolling resistance acts on balls.
 pub struct Ruled<L: NormalLaw, C: ContactLaw> {
-    pair: Series<L>,
+    pair: Alike<L>,
     wall: Flat<L>,
     effects: C,
     subjects: BTreeMap<Key, Subject>,
@@ -125,7 +125,7 @@ impl<L: NormalLaw, C: ContactLaw> Ruled<L, C> {
     pub fn new(normal: L, effects: C, radius: f64, world: &mut PhysicsWorld) -> Self {
         tame(&mut world.integration_parameters, radius);
         Self {
-            pair: Series(normal.clone()),
+            pair: Alike(normal.clone()),
             wall: Flat(normal),
             effects,
             subjects: BTreeMap::new(),
@@ -282,7 +282,7 @@ impl<L: NormalLaw, C: ContactLaw> Ruled<L, C> {
             ));
         }
         let mut held = self.touching.remove(&names).unwrap_or(Touching {
-            sides: Sides::default(),
+            history: L::History::default(),
             memory: C::Memory::default(),
             push: Push::default(),
             normal: near.normal,
@@ -294,12 +294,11 @@ impl<L: NormalLaw, C: ContactLaw> Ruled<L, C> {
             false => Pressed::default(),
             true if second.radius.is_finite() => {
                 self.pair
-                    .press(near.overlap, meeting.radii, &mut held.sides)
+                    .press(near.overlap, meeting.radii, &mut held.history)
             }
-            true => {
-                let history = &mut held.sides.histories[0];
-                self.wall.press(near.overlap, meeting.radii, history)
-            }
+            true => self
+                .wall
+                .press(near.overlap, meeting.radii, &mut held.history),
         };
         let (push, losses) = self
             .effects
@@ -359,11 +358,10 @@ impl<L: NormalLaw, C: ContactLaw> Ruled<L, C> {
         let energy = |held: &Touching<L::History, C::Memory>| match held.radii[1].is_finite() {
             true => self
                 .pair
-                .elastic_energy(held.overlap, held.radii, &held.sides),
-            false => {
-                let history = &held.sides.histories[0];
-                self.wall.elastic_energy(held.overlap, held.radii, history)
-            }
+                .elastic_energy(held.overlap, held.radii, &held.history),
+            false => self
+                .wall
+                .elastic_energy(held.overlap, held.radii, &held.history),
         };
         self.touching.values().map(energy).sum()
     }

@@ -26,7 +26,7 @@ pub enum Stage {
     Compress {
         /// Speed, m/s.
         speed: f64,
-        /// Stress on the piston at which strain is counted from, Pa.
+        /// Stress on the piston from which on, once it lasts, strain is counted, Pa.
         seating_stress: f64,
         /// Strain at which the stage ends.
         strain: f64,
