@@ -1,9 +1,10 @@
 //! A run that other codes can repeat: the shared packing is shaken and comes to rest, walls being of the grains' material.
 //!
-//!     cargo bench --bench peers -- [--write DIR] [--steps N] [--across N] [--threads N]
+//!     cargo bench --bench peers -- [--write DIR] [--steps N] [--across N] [--threads N] [--nudge SEED]
 //!
 //! prints rows of step, kinetic energy (J), contacts per grain, mean and largest height (m), then the particle-steps a
-//! second, and peak memory where the system tells. `--write` writes the packing for LAMMPS and LIGGGHTS instead.
+//! second, and peak memory where the system tells. `--nudge` moves every grain by up to 1e-9 of its radius first, to see how far
+//! two runs of one scene drift apart. `--write` writes the packing for LAMMPS and LIGGGHTS instead.
 //! `benches/peers.sh` runs all of them and compares.
 
 mod packing;
@@ -45,6 +46,17 @@ fn shaken(across: usize) -> Grains {
         motion.velocity = Vector::new(part(1), part(2), part(3)) * SHAKE;
     }
     grains
+}
+
+/// Moves every grain by up to 1e-9 of a radius along each axis; not at all for seed 0.
+fn nudge(grains: &mut Grains, seed: usize) {
+    for (index, sphere) in grains.spheres.iter_mut().enumerate() {
+        let part =
+            |salt: usize| ((index * 6151 + seed * (salt + 31_337)) % 1009) as f64 / 504.0 - 1.0;
+        if seed > 0 {
+            sphere.centre += Vector::new(part(1), part(2), part(3)) * (1e-9 * RADIUS);
+        }
+    }
 }
 
 /// `packing.data`, which LAMMPS (`atom_style sphere`) and LIGGGHTS (`granular`) read.
@@ -94,6 +106,7 @@ fn peak_memory() -> Option<f64> {
 
 fn run(across: usize, steps: usize) {
     let mut bed = bed(across);
+    nudge(&mut bed.grains, number("--nudge", 0));
     let grains = bed.grains.len() as f64;
     let mut spent = 0.0;
     println!("step,kinetic_J,contacts_per_grain,mean_height_m,top_m");

@@ -22,7 +22,7 @@ use std::f64::consts::PI;
 
 const RADIUS: f64 = 1e-3;
 const EDGE: f64 = 8e-3;
-const DT: f64 = 1e-5;
+const DT: f64 = 5e-6;
 const GRAVITY: Vector = Vector::new(0.0, 0.0, -9.81);
 
 const SOFT: Material = Material {
@@ -128,6 +128,11 @@ fn apart<L: NormalLaw, C: ContactLaw>(
         }
     }
     bed.evaluate().unwrap();
+    println!(
+        "{most:e} radii apart, {:?}, plastic {:e}",
+        bed.energies(),
+        laws.plastic()
+    );
     assert!(meetings > 5, "at most {meetings} contacts at once");
     (most, bed, laws)
 }

@@ -10,9 +10,6 @@ use crate::Result;
 const PISTON_GAP: f64 = 1e-3;
 /// Part of the bed's height the piston may travel without meeting the seating stress.
 const LONGEST_APPROACH: f64 = 0.5;
-/// Way of the piston, over the mean radius of the grains, on which the stress must not fall below the seating stress: a
-/// few grains above the rest carry more than that for a while, then give way. Less where the strain asked for is less.
-const LASTING: f64 = 0.5;
 /// Time for a compression to be sampled over, over what the strain alone takes: the piston has to come near first.
 const APPROACH: f64 = 1.2;
 
@@ -121,17 +118,18 @@ impl Run<'_> {
         }
         if let Stage::Compress {
             seating_stress,
-            strain,
+            seating_travel,
             ..
         } = stage
-            && survey.is_some()
+            // the first touch is seen at once, a stress that lasts by the looks at it
+            && (survey.is_some() || *seating_travel == 0.0)
         {
-            self.seat(*seating_stress, *strain);
+            self.seat(*seating_stress, *seating_travel);
         }
     }
 
     /// Seats the piston where it first met a stress that has lasted since; strain counts from there.
-    fn seat(&mut self, seating_stress: f64, strain: f64) {
+    fn seat(&mut self, seating_stress: f64, seating_travel: f64) {
         if self.progress.seated_height.is_some() {
             return;
         }
@@ -144,7 +142,7 @@ impl Run<'_> {
             return;
         }
         let since = *self.place.carried_since.get_or_insert(face);
-        if since - face < (LASTING * self.scene.radius()).min(strain * since) {
+        if since - face < seating_travel {
             return;
         }
         self.progress.seated_height = Some(since);

@@ -297,11 +297,16 @@ impl Bed<'_> {
                 Stage::Compress {
                     speed,
                     seating_stress,
+                    seating_travel,
                     strain,
                 } => {
                     let words = words(
                         -speed,
-                        &[("@SEATING@", seating_stress), ("@STRAIN@", strain)],
+                        &[
+                            ("@SEATING@", seating_stress),
+                            ("@TRAVEL@", seating_travel),
+                            ("@STRAIN@", strain),
+                        ],
                     );
                     let seat = if seated { "" } else { parts.seat };
                     seated = true;

@@ -7,7 +7,7 @@ use super::stage::{Change, Duration, Move, RunStage, Stage, Until};
 use crate::Result;
 use crate::bed::motion::Motion;
 use crate::document::Document;
-use crate::unit::{Energy, Force, Pressure, Quantity, Time, Velocity};
+use crate::unit::{Energy, Force, Length, Pressure, Quantity, Time, Velocity};
 use serde::Deserialize;
 
 /// Stage as it is written.
@@ -27,6 +27,7 @@ pub(super) enum StageTable {
     Compress {
         speed: Quantity<Velocity>,
         seating_stress: Quantity<Pressure>,
+        seating_travel: Option<Quantity<Length>>,
         strain: f64,
     },
     Unload {
@@ -166,10 +167,12 @@ impl StageTable {
             StageTable::Compress {
                 speed,
                 seating_stress,
+                seating_travel,
                 strain,
             } => Stage::Compress {
                 speed: at.positive("speed", speed)?,
                 seating_stress: at.positive("seating_stress", seating_stress)?,
+                seating_travel: some(&at, "seating_travel", seating_travel)?.unwrap_or(0.0),
                 strain: document.check(
                     &at.name("strain"),
                     strain,

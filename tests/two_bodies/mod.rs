@@ -1,0 +1,132 @@
+//! Two bodies: what tests of single impacts in the bed share.
+
+#![allow(dead_code, reason = "each test binary uses a part")]
+
+use impactlaw::bed::bodies::{Body, Mobility, Solid};
+use impactlaw::bed::grains::Grains;
+use impactlaw::bed::law::{ContactLaw, Law};
+use impactlaw::bed::machine::Machine;
+use impactlaw::bed::normals::{Model, NormalModel};
+use impactlaw::bed::step::{Bed, Normals, Parts};
+use impactlaw::contact::NormalLaw;
+use impactlaw::contact::pair::Press;
+use impactlaw::material::{Flow, Material};
+use parry3d::math::{Rotation, Vector};
+
+pub const RADIUS: f64 = 250e-6;
+pub const MATERIAL: Material = Material {
+    density: 7274.0,
+    young_modulus: 59.82e9,
+    poisson_ratio: 0.33,
+    flow: Some(Flow {
+        yield_strength: 97.59e6,
+        hardening_modulus: 0.0,
+    }),
+};
+
+/// Loads along Hertz, unloads along a stiffer straight line: a law with a closed form for everything.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Straight {
+    pub loading: f64,
+    pub unloading: f64,
+}
+
+impl NormalLaw for Straight {
+    type History = f64;
+
+    fn force(&self, x: f64, deepest: &mut f64) -> f64 {
+        *deepest = deepest.max(x);
+        let peak = self.loading * *deepest;
+        (peak - self.unloading * (*deepest - x)).max(0.0)
+    }
+
+    fn stiffness(&self, x: f64, deepest: &f64) -> f64 {
+        if x < *deepest {
+            self.unloading
+        } else {
+            self.loading
+        }
+    }
+
+    fn elastic_energy(&self, x: f64, deepest: &f64) -> f64 {
+        let force = (self.loading * deepest - self.unloading * (deepest - x)).max(0.0);
+        0.5 * force * force / self.unloading
+    }
+
+    fn contact_radius(&self, _: f64, _: &f64) -> Option<f64> {
+        None
+    }
+
+    fn valid_to(&self) -> f64 {
+        f64::INFINITY
+    }
+}
+
+/// Bed of `grains` whose pairs are pressed by `pair` and whose surface contacts by `wall`.
+pub fn bed<C: ContactLaw>(
+    effects: C,
+    pair: impl Press,
+    wall: impl Press,
+    grains: Grains,
+    machine: Machine,
+    dt: f64,
+) -> Bed<C> {
+    let boxed = |model: Box<dyn NormalModel>| model;
+    let normals = Normals {
+        pair: boxed(Box::new(Model(pair))),
+        wall: boxed(Box::new(Model(wall))),
+    };
+    let parts = Parts {
+        grains,
+        machine,
+        gravity: Vector::ZERO,
+        dt,
+        skin: RADIUS,
+    };
+    Bed::new(effects, normals, parts)
+}
+
+pub fn smooth() -> Law {
+    Law::new((), (), ())
+}
+
+pub fn empty() -> Machine {
+    Machine::new(Vec::new(), Vector::ZERO, RADIUS).unwrap()
+}
+
+/// A block whose top is the plane z = 0.
+pub fn floor(mobility: Mobility) -> Machine {
+    let edge = 20.0 * RADIUS;
+    let body = Body {
+        name: "floor".to_owned(),
+        solid: Solid::Cuboid(Vector::splat(edge)),
+        centre: Vector::new(0.0, 0.0, -edge),
+        rotation: Rotation::IDENTITY,
+        mobility,
+    };
+    Machine::new(vec![body], Vector::ZERO, RADIUS).unwrap()
+}
+
+/// Runs until the first grain has been pushed and is free again.
+pub fn collide<C: ContactLaw>(bed: &mut Bed<C>) {
+    let touching = |bed: &Bed<C>| {
+        bed.contacts
+            .pushes
+            .iter()
+            .any(|push| push.force != Vector::ZERO)
+            || bed
+                .surfaces
+                .all()
+                .any(|held| held.patch.push.force != Vector::ZERO)
+    };
+    let mut touched = false;
+    loop {
+        bed.evaluate().unwrap();
+        let now = touching(bed);
+        if touched && !now {
+            return;
+        }
+        touched |= now;
+        bed.advance().unwrap();
+    }
+}
