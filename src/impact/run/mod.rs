@@ -1,16 +1,17 @@
 //! Run: one impact in progress, step by step.
 
+mod advance;
 #[cfg(test)]
 mod kept;
 mod observe;
 
 use crate::curve::Status;
-use crate::impact::contact::{Touch, Wall};
+use crate::impact::contact::Wall;
 use crate::impact::erosion::Erosion;
-use crate::impact::kernel::{Part, Purpose, Sweep};
-use crate::impact::local::{LocalStep, push};
+use crate::impact::kernel::{Part, Purpose};
+use crate::impact::local::LocalStep;
 use crate::impact::record::{Frame, Record, Snapshot};
-use crate::impact::remap::{Remap, StepEnd};
+use crate::impact::remap::Remap;
 use crate::impact::setup::Model;
 use crate::impact::timestep::StabilityLimit;
 use crate::material::stress::Constitutive;
@@ -50,13 +51,6 @@ keep_fields!(
     model, transfer, transferred, u, v, limit, local, dt, time, step, stepped, next_refresh, next_output, impulse, tangential,
     contact_work, plastic, contact_radius, contact_end, frames, closure, compressed, erosion, start,
 );
-
-/// What an output needs of the levels' sweeps.
-#[derive(Debug, Clone, Copy, Default)]
-struct Output {
-    elastic: f64,
-    impulse: f64,
-}
 
 /// A run in progress.
 #[derive(Clone)]
@@ -296,118 +290,6 @@ where
             self.failure = Some(reason);
             self.dt
         })
-    }
-
-    /// Internal forces of a level of cells. Where a point is turned inside out its cell is taken out, or the run stops.
-    fn forces(&mut self, level: usize, purpose: Purpose) -> Sweep {
-        let points = &mut self.model.points;
-        let force = match level {
-            0 => &mut self.force,
-            _ => self.local.force(level),
-        };
-        let part = Part::Level(level);
-        self.stepped += points.blocks_of(part);
-        let sweep = points.sweep_part(part, purpose, &self.u, force);
-        self.plastic += sweep.plastic;
-        if sweep.least_j > 0.0 {
-            return sweep;
-        }
-        if !self.erosion.is_on() {
-            let least = sweep.least_j;
-            self.failure = Some(format!("volume ratio J = {least:e} at a material point"));
-        } else if let Err(reason) = self.erosion.take_out_inverted(points, &self.u) {
-            self.failure = Some(reason);
-        }
-        // the states of the others have moved on to these displacements: they answer as before and dissipate no more
-        let again = points.sweep_part(part, purpose, &self.u, force);
-        self.plastic += again.plastic;
-        again
-    }
-
-    /// One step of the symplectic scheme: forces at $u_n$, velocities to n + 1/2, contact, displacements to n + 1.
-    fn advance(&mut self, output: bool) {
-        self.descend(0, self.dt, &mut output.then(Output::default));
-        self.step += 1;
-    }
-
-    /// One step of a level of cells, with the two steps of the next level in it. What is due to be put out is gathered on
-    /// the way down to the first of the shortest steps.
-    fn descend(&mut self, level: usize, dt: f64, output: &mut Option<Output>) {
-        let purpose = match output {
-            Some(_) => Purpose::Audit,
-            None => Purpose::Step,
-        };
-        let sweep = self.forces(level, purpose);
-        let touch = if level == 0 {
-            self.kick(dt)
-        } else {
-            let nodes = self.model.points.nodes_of(level);
-            let recip_mass = &self.model.recip_mass;
-            self.local
-                .kick(level, dt, nodes, &self.u, &mut self.v, recip_mass)
-        };
-        self.book(&touch, dt);
-        if let Some(output) = output {
-            output.elastic += sweep.elastic;
-            output.impulse += touch.impulse;
-        }
-        if level < self.model.points.deepest() {
-            self.descend(level + 1, 0.5 * dt, output);
-            self.descend(level + 1, 0.5 * dt, output);
-            return;
-        }
-        if let Some(output) = output.take() {
-            self.record(output.elastic, output.impulse);
-        }
-        if level == 0 {
-            self.map(dt);
-        }
-        self.drift(dt);
-    }
-
-    /// Velocities after forces and contact of the longest step.
-    fn kick(&mut self, dt: f64) -> Touch {
-        self.old.copy_from_slice(&self.v);
-        let recip_mass = &self.model.recip_mass;
-        for (v, (force, weight)) in self.v.iter_mut().zip(self.force.iter().zip(recip_mass)) {
-            push(v, dt, force, weight);
-        }
-        let travel = self.transfer.travel(&self.u);
-        let contact = &mut self.model.contact;
-        contact.solve(dt, travel, &self.old, &mut self.v, recip_mass)
-    }
-
-    /// Add up what contact did in a step of length `dt`.
-    fn book(&mut self, touch: &Touch, dt: f64) {
-        self.impulse += touch.impulse;
-        self.tangential += touch.tangential;
-        self.contact_work += touch.work;
-        self.contact_radius = self.contact_radius.max(touch.radius);
-        if touch.impulse > 0.0 {
-            self.contact_end = self.time + dt;
-        }
-    }
-
-    /// Velocities mapped through the points, in schemes that do.
-    fn map(&mut self, dt: f64) {
-        let end = StepEnd {
-            dt,
-            old: &self.old,
-            force: &self.force,
-            mass: &self.model.mass,
-            recip_mass: &self.model.recip_mass,
-        };
-        self.transferred += self.transfer.remap(end, &mut self.v);
-    }
-
-    /// Displacements at the end of a shortest step.
-    fn drift(&mut self, dt: f64) {
-        for (u, v) in self.u.iter_mut().zip(&self.v) {
-            for (u, v) in u.as_mut().iter_mut().zip(v.as_ref()) {
-                *u += dt * v;
-            }
-        }
-        self.time += dt;
     }
 
     /// Mass average of component `axis` of a nodal field.
