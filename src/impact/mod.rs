@@ -29,10 +29,11 @@ pub mod wall;
 
 use self::choice::Job;
 use self::record::Record;
-use crate::curve::{Impact, ParticleMap};
+use crate::curve::{Impact, ParticleMap, Status};
 use crate::material::Material;
 use crate::material::stress::{Elastic, Moduli};
 use crate::plan::Plan;
+use crate::scheme::Scheme;
 use crate::tape::Checkpoint;
 
 /// Contact violation that counts as solved, in impact speeds.
@@ -55,7 +56,8 @@ pub struct Simulated {
 
 /// Simulate one impact as planned.
 ///
-/// Always returns what the run has; [`crate::curve::Status`] says whether it finished.
+/// Always returns what the run has; [`crate::curve::Status`] says whether it finished. A run of the crate's own scheme that
+/// fails is tried once more with half the time step, and a warning says so.
 #[must_use]
 pub fn simulate(material: &Material, radius: f64, plan: &Plan) -> Simulated {
     first(simulated(material, radius, plan, None))
@@ -92,6 +94,28 @@ pub fn simulate_repeated(
     simulated(material, radius, &plan, None)
 }
 
+/// Run the impacts of a plan with the material it calls for.
+fn attempt(material: &Material, plan: &Plan, checkpoint: Option<&Checkpoint>) -> Vec<Record> {
+    let moduli = Moduli::new(1.0, material.poisson_ratio);
+    let job = Job {
+        plan,
+        speed: plan.velocity / (material.young_modulus / material.density).sqrt(),
+        checkpoint: checkpoint.map(|c| (c, format!("{material:?} {plan:?}"))),
+    };
+    match material.flow.filter(|_| plan.plastic) {
+        None => choice::run_geometry(Elastic { moduli }, &job),
+        Some(flow) => choice::run_plastic(moduli, &flow, material.young_modulus, &job),
+    }
+}
+
+/// Why the last impact failed, if it did.
+fn failure(records: &[Record]) -> Option<String> {
+    match &records.last()?.status {
+        Status::Failed(reason) => Some(reason.clone()),
+        _ => None,
+    }
+}
+
 /// The first impact: there always is one.
 fn first(mut all: Vec<Simulated>) -> Simulated {
     all.swap_remove(0)
@@ -104,17 +128,14 @@ fn simulated(
     plan: &Plan,
     checkpoint: Option<&Checkpoint>,
 ) -> Vec<Simulated> {
-    let moduli = Moduli::new(1.0, material.poisson_ratio);
     let started = std::time::Instant::now();
-    let job = Job {
-        plan,
-        speed: plan.velocity / (material.young_modulus / material.density).sqrt(),
-        checkpoint: checkpoint.map(|c| (c, format!("{material:?} {plan:?}"))),
-    };
-    let records = match material.flow.filter(|_| plan.plastic) {
-        None => choice::run_geometry(Elastic { moduli }, &job),
-        Some(flow) => choice::run_plastic(moduli, &flow, material.young_modulus, &job),
-    };
+    let mut records = attempt(material, plan, checkpoint);
+    if let Some(reason) = failure(&records).filter(|_| plan.scheme == Scheme::default()) {
+        tracing::warn!("{reason}; tried again with half the time step");
+        let mut careful = plan.clone();
+        careful.grid.dt_share *= 0.5;
+        records = attempt(material, &careful, checkpoint);
+    }
     let mut seconds = started.elapsed().as_secs_f64();
     let finished = |record: Record| {
         let wall = record.seconds_before + std::mem::take(&mut seconds);
