@@ -17,7 +17,7 @@ use crate::space::Space;
 use crate::tape::{Keep, Tape, keep_fields};
 
 /// Refreshes after which the stable steps are measured anew; in between they follow the steepness of the cells.
-const MOST_AGE: u64 = 2;
+const MOST_AGE: u64 = 3;
 
 /// Steps of a level in one of the first.
 fn parts(level: usize) -> f64 {
