@@ -57,7 +57,7 @@ pub struct Simulated {
 /// Simulate one impact as planned.
 ///
 /// Always returns what the run has; [`crate::curve::Status`] says whether it finished. A run of the crate's own scheme that
-/// fails is tried once more with half the time step, and a warning says so.
+/// fails is tried once more with half the time step, and a warning says so; only a good end counts.
 #[must_use]
 pub fn simulate(material: &Material, radius: f64, plan: &Plan) -> Simulated {
     first(simulated(material, radius, plan, None))
@@ -134,7 +134,11 @@ fn simulated(
         tracing::warn!("{reason}; tried again with half the time step");
         let mut careful = plan.clone();
         careful.grid.dt_share *= 0.5;
-        records = attempt(material, &careful, checkpoint);
+        let again = attempt(material, &careful, checkpoint);
+        // of two that did not end well the first tells more
+        if again.last().is_some_and(|r| r.status == Status::Ok) {
+            records = again;
+        }
     }
     let mut seconds = started.elapsed().as_secs_f64();
     let finished = |record: Record| {
