@@ -59,8 +59,28 @@ fn nudge(grains: &mut Grains, seed: usize) {
     }
 }
 
+/// Velocities and angular velocities at the time of the positions: the other codes start from these, a bed from those
+/// half a step before.
+fn present(before: &Grains, across: usize) -> Vec<[Vector; 2]> {
+    let mut bed = bed(across);
+    bed.step().expect("it stays in its box");
+    let mut places = vec![0; before.len()];
+    for (at, id) in before.ids.iter().enumerate() {
+        places[*id as usize] = at;
+    }
+    let mut all = vec![[Vector::ZERO; 2]; before.len()];
+    for grains in [before, &bed.grains] {
+        for (at, id) in grains.ids.iter().enumerate() {
+            let [v, w] = &mut all[places[*id as usize]];
+            *v += 0.5 * grains.motions[at].velocity;
+            *w += 0.5 * grains.spins[at].rate;
+        }
+    }
+    all
+}
+
 /// `packing.data`, which LAMMPS (`atom_style sphere`) and LIGGGHTS (`granular`) read.
-fn write(folder: &Path, grains: &Grains) -> std::io::Result<()> {
+fn write(folder: &Path, grains: &Grains, across: usize) -> std::io::Result<()> {
     let mut text = format!(
         "shaken packing\n\n{} atoms\n2 atom types\n\n0 0.046 xlo xhi\n0 0.046 ylo yhi\n0 0.12 zlo zhi\n\nAtoms\n\n",
         grains.len()
@@ -71,9 +91,9 @@ fn write(folder: &Path, grains: &Grains) -> std::io::Result<()> {
         writeln!(text, "{row}{:.13} {:.13} {:.13}", c.x, c.y, c.z).expect("a string takes it");
     }
     text.push_str("\nVelocities\n\n");
-    for (at, motion) in grains.motions.iter().enumerate() {
-        let v = motion.velocity;
-        writeln!(text, "{} {} {} {} 0 0 0", at + 1, v.x, v.y, v.z).expect("a string takes it");
+    for (at, [v, w]) in present(grains, across).iter().enumerate() {
+        let row = format!("{} {} {} {}", at + 1, v.x, v.y, v.z);
+        writeln!(text, "{row} {} {} {}", w.x, w.y, w.z).expect("a string takes it");
     }
     std::fs::write(folder.join("packing.data"), text)
 }
@@ -139,7 +159,7 @@ fn run(across: usize, steps: usize) {
 
 fn main() {
     if let Some(folder) = argument("--write") {
-        write(Path::new(&folder), &shaken(1)).expect("the folder can be written to");
+        write(Path::new(&folder), &shaken(1), 1).expect("the folder can be written to");
         return;
     }
     let pool = rayon::ThreadPoolBuilder::new()
