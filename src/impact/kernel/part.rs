@@ -255,29 +255,12 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::impact::kernel::passes::tests::{GRID, Metal, metal};
     use crate::impact::setup::{self, AxisymmetricModel};
-    use crate::material::flow::PerfectlyPlastic;
-    use crate::material::stress::{J2, Moduli};
-    use crate::plan::{Grid, Remedies};
     use crate::scheme::Layout;
 
-    type Metal = J2<PerfectlyPlastic>;
-
     fn model() -> AxisymmetricModel<Metal, 9> {
-        let grid = Grid {
-            degree: 2,
-            points_per_direction: 2,
-            fine: 0.1,
-            fine_width: 0.3,
-            fine_depth: 0.1,
-            growth: 1.3,
-            coarse: 0.3,
-            dt_share: 1.0,
-            remedies: Remedies::NONE,
-        };
-        let moduli = Moduli::new(1.0, 0.35);
-        let flow = PerfectlyPlastic { strength: 0.01 };
-        setup::build::<_, 2, 9>(&grid, Layout::Fitted, J2 { moduli, flow }, 1e-9)
+        setup::build::<_, 2, 9>(&GRID, Layout::Fitted, metal(), 1e-9)
     }
 
     /// The third cell goes two levels down, the twentieth one.

@@ -209,7 +209,7 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::impact::kernel::Part;
     use crate::impact::patch::Frictionless;
@@ -219,9 +219,9 @@ mod tests {
     use crate::plan::{Geometry, Grid, Remedies};
     use crate::scheme::Layout;
 
-    type Metal = J2<PerfectlyPlastic>;
+    pub type Metal = J2<PerfectlyPlastic>;
 
-    const GRID: Grid = Grid {
+    pub const GRID: Grid = Grid {
         degree: 2,
         points_per_direction: 2,
         fine: 0.1,
@@ -233,7 +233,7 @@ mod tests {
         remedies: Remedies::NONE,
     };
 
-    fn metal() -> Metal {
+    pub fn metal() -> Metal {
         let moduli = Moduli::new(1.0, 0.35);
         let flow = PerfectlyPlastic { strength: 0.01 };
         J2 { moduli, flow }
