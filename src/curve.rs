@@ -122,7 +122,7 @@ pub struct Tangential {
 }
 
 /// A number; `null` is NaN.
-fn number_or_null<'de, D: serde::Deserializer<'de>>(
+pub(crate) fn number_or_null<'de, D: serde::Deserializer<'de>>(
     deserializer: D,
 ) -> std::result::Result<f64, D::Error> {
     Ok(Option::<f64>::deserialize(deserializer)?.unwrap_or(f64::NAN))

@@ -3,7 +3,7 @@
 use super::{Context, Verdict, output_folder, print};
 use crate::case::Case;
 use crate::cli::CostArgs;
-use crate::cost::accuracy::{self, Line};
+use crate::cost::accuracy;
 use crate::cost::thesis::{self, Comparison};
 use crate::cost::{Effort, Finished, Footprint, Pulse, Row, Rung, Summary, mark_front, rungs};
 use crate::curve::{Impact, Status};
@@ -42,7 +42,7 @@ pub fn run(args: &CostArgs, context: &Context) -> Result<Verdict> {
             provenance: context.provenance(&case.hash),
         };
         let rows = job.run(args, longest, context)?;
-        lines.push(Line::new(&rows, severity(&case.material, velocity)));
+        lines.extend(accuracy::lines(&rows, severity(&case.material, velocity)));
     }
     let provenance = context.provenance(&case.hash);
     write_rows(&out.join("cost_accuracy.csv"), &provenance, &lines)?;

@@ -1,7 +1,7 @@
-//! Accuracy: what the planned run and the schemes of other codes cost at the same error, one line a speed.
+//! Accuracy: what this crate's runs and the schemes of other codes cost at the same error, speed by speed.
 
 use super::ladder::PLANNED;
-use super::relatives::CUBIC_LATTICES;
+use super::relatives::{CUBIC_LATTICES, LINEAR_LATTICES};
 use super::{Row, thesis};
 use crate::plan::Geometry;
 use crate::unit::{rounded, significant};
@@ -68,100 +68,155 @@ impl Reach {
     }
 }
 
-/// One speed; the columns of `cost_accuracy.csv`.
+/// A lattice in three dimensions at one speed beside this crate's own runs; the columns of `cost_accuracy.csv`.
+///
+/// Compared twice: at the error that the lattice's best run has, where nothing is extrapolated, and at [`TARGET`].
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Line {
     /// Impact speed, m/s.
     pub velocity_m_s: f64,
     /// rho V^2/Y; empty for an elastic body.
     pub severity: Option<f64>,
+    /// Ladder of the lattices.
+    pub lattice: String,
+    /// Points of the most accurate of them.
+    pub best_points: usize,
+    /// Its error.
+    pub best_error: f64,
+    /// Its processor time, s.
+    pub best_s: f64,
+    /// Processor time of this crate's cheapest run with no larger error, s.
+    pub same_s: Option<f64>,
+    /// The lattice's time over that.
+    pub same_ratio: Option<f64>,
+    /// The same of this crate's runs in three dimensions, s.
+    pub same_solid_s: Option<f64>,
+    /// The lattice's time over that.
+    pub same_solid_ratio: Option<f64>,
+    /// Order of the lattices' error in the cell size.
+    pub order: f64,
+    /// Whether one of them came within 1 %.
+    pub reached: bool,
+    /// Processor time of the lattice at 1 %, s; extrapolated where it was not reached.
+    pub target_s: Option<f64>,
     /// Processor time of the run planned for a tolerance of 1 %, s.
     pub planned_s: Option<f64>,
     /// Its error.
     pub planned_error: Option<f64>,
-    /// Finest cubic lattice in three dimensions with the stable step: processor time, s.
-    pub lattice_s: Option<f64>,
-    /// Its error.
-    pub lattice_error: Option<f64>,
-    /// Order of its error in the cell size.
-    pub lattice_order: Option<f64>,
-    /// Whether a lattice came within 1 %.
-    pub lattice_reached: Option<bool>,
-    /// Processor time of the lattice at 1 %, s; extrapolated where it was not reached.
-    pub lattice_target_s: Option<f64>,
-    /// That over the planned run's.
-    pub lattice_ratio: Option<f64>,
+    /// The lattice's time at 1 % over the planned run's.
+    pub target_ratio: Option<f64>,
     /// Steps of the thesis over those of a lattice of the same points with the stable step.
     pub thesis_step_ratio: Option<f64>,
 }
 
+/// The lines of one speed from all its rows: one for each kind of lattice of which there are two runs or more.
+#[must_use]
+pub fn lines(rows: &[Row], severity: f64) -> Vec<Line> {
+    [CUBIC_LATTICES, LINEAR_LATTICES]
+        .into_iter()
+        .filter_map(|ladder| Line::of(ladder, rows, severity))
+        .collect()
+}
+
+/// Processor time of the cheapest of this crate's own runs in so many dimensions with an error of at most `error`.
+fn cheapest(rows: &[Row], dimension: usize, error: f64) -> Option<f64> {
+    let ours = |r: &&Row| r.ladder.starts_with("cells, ") || r.ladder == PLANNED;
+    rows.iter()
+        .filter(ours)
+        .filter(|r| r.dimension == dimension && r.error <= error)
+        .map(|r| r.cpu_s)
+        .min_by(f64::total_cmp)
+}
+
 impl Line {
-    /// From all rows of one speed.
-    #[must_use]
-    pub fn new(rows: &[Row], severity: f64) -> Line {
-        let planned = rows
-            .iter()
-            .find(|r| r.ladder == PLANNED && r.rung.ends_with(" 1 %") && r.error.is_finite());
-        let lattices = || rows.iter().filter(|r| r.ladder == CUBIC_LATTICES);
+    fn of(ladder: &str, rows: &[Row], severity: f64) -> Option<Line> {
+        let lattices = || rows.iter().filter(|r| r.ladder == ladder);
         let runs: Vec<_> = lattices()
             .map(|r| (r.cell_size_rel, r.error, r.cpu_s))
             .collect();
-        let reach = Reach::of(&runs);
-        let preset = thesis::ladder(Geometry::Quarter, 0);
-        let step_ratio = rows.iter().filter(|r| r.ladder == preset).find_map(|r| {
-            let twin = lattices().find(|l| l.points == r.points && l.error.is_finite())?;
-            Some(r.steps as f64 / twin.steps as f64)
-        });
-        let target = reach.and_then(|r| r.target_s);
-        Line {
-            velocity_m_s: rows.first().map_or(f64::NAN, |r| r.velocity_m_s),
+        let reach = Reach::of(&runs)?;
+        let best = lattices()
+            .filter(|r| r.error.is_finite())
+            .min_by(|a, b| a.error.total_cmp(&b.error))?;
+        let same_s = cheapest(rows, 2, best.error);
+        let same_solid_s = cheapest(rows, 3, best.error);
+        let planned = rows
+            .iter()
+            .find(|r| r.ladder == PLANNED && r.rung.ends_with(" 1 %") && r.error.is_finite());
+        let over = |time: Option<f64>, other: Option<f64>| Some(time? / other?);
+        let planned_s = planned.map(|r| r.cpu_s);
+        Some(Line {
+            velocity_m_s: best.velocity_m_s,
             severity: (severity > 0.0).then_some(severity),
-            planned_s: planned.map(|r| r.cpu_s),
+            lattice: ladder.to_owned(),
+            best_points: best.points,
+            best_error: best.error,
+            best_s: best.cpu_s,
+            same_s,
+            same_ratio: over(Some(best.cpu_s), same_s),
+            same_solid_s,
+            same_solid_ratio: over(Some(best.cpu_s), same_solid_s),
+            order: reach.order,
+            reached: reach.reached,
+            target_s: reach.target_s,
+            planned_s,
             planned_error: planned.map(|r| r.error),
-            lattice_s: reach.map(|r| r.seconds),
-            lattice_error: reach.map(|r| r.error),
-            lattice_order: reach.map(|r| r.order),
-            lattice_reached: reach.map(|r| r.reached),
-            lattice_target_s: target,
-            lattice_ratio: target.zip(planned).map(|(t, r)| t / r.cpu_s),
-            thesis_step_ratio: step_ratio,
-        }
+            target_ratio: over(reach.target_s, planned_s),
+            thesis_step_ratio: step_ratio(rows, ladder),
+        })
     }
+}
+
+/// Steps of the thesis' longest fixed step over those of a lattice of this ladder with the same points.
+fn step_ratio(rows: &[Row], ladder: &str) -> Option<f64> {
+    let preset = thesis::ladder(Geometry::Quarter, 0);
+    rows.iter().filter(|r| r.ladder == preset).find_map(|r| {
+        let is_twin = |l: &&Row| l.ladder == ladder && l.points == r.points && l.error.is_finite();
+        let twin = rows.iter().find(is_twin)?;
+        Some(r.steps as f64 / twin.steps as f64)
+    })
 }
 
 /// The lines as Markdown.
 #[must_use]
 pub fn markdown(lines: &[Line]) -> String {
+    let target = significant(TARGET * 100.0, 2);
     let mut text = format!(
-        "\n# An error of {} % in F*, delta* and e, speed by speed\n\nPlanned: what `impactlaw impact` runs for a tolerance of 1 \
-         %. Lattice: the thesis' scheme in three dimensions (a quarter, cubic splines, one point a cell, FLIP) with the largest \
-         stable step; its finest run, the order p of its error in the cell size, and the time at which it would reach the \
-         target, extrapolated by the orders of error and time. The thesis' own time step takes the steps of the last column \
-         more.\n\n| V, m/s | rho V^2/Y | planned s | error % | lattice s | error % | p | lattice at {} %, s | ratio | steps of \
-         the thesis |\n|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n",
-        significant(TARGET * 100.0, 2),
-        significant(TARGET * 100.0, 2)
+        "\n# Time at equal accuracy: lattices in three dimensions and this crate\n\nAccuracy: the largest error in F*, delta* \
+         and e against the finest run. Lattices: a quarter of the sphere, FLIP, the largest stable step; with cubic splines and \
+         one point a cell the thesis' scheme, whose own time step takes the steps of the last column more. First the most \
+         accurate lattice of the ladder, and the cheapest runs of this crate that are no less accurate, in the section and in \
+         three dimensions. Then an error of {target} %: the run that `impactlaw impact` plans for that tolerance, and the time \
+         at which the lattices would reach it, extrapolated by the order p of their error in the cell size and by that of their \
+         time.\n\n| V, m/s | rho V^2/Y | lattice | points | error % | s | section s | ratio | 3-D s | ratio | planned s | error % \
+         | p | lattice at {target} %, s | ratio | steps of the thesis \
+         |\n|--:|--:|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n"
     );
     let cell = |x: Option<f64>, digits| x.map_or_else(String::new, |x| rounded(x, digits));
-    let percent = |x: Option<f64>| x.map_or_else(String::new, |x| format!("{:.2}", 100.0 * x));
+    let percent = |x: f64| format!("{:.2}", 100.0 * x);
     for l in lines {
-        let target = match (l.lattice_reached, l.lattice_target_s) {
-            (Some(true), Some(s)) => rounded(s, 2),
-            (Some(false), Some(s)) => format!("not reached; about {}", rounded(s, 2)),
-            (Some(false), None) => "not reached, not near".to_owned(),
-            _ => String::new(),
+        let at_target = match (l.reached, l.target_s) {
+            (true, Some(s)) => rounded(s, 2),
+            (false, Some(s)) => format!("not reached; about {}", rounded(s, 2)),
+            (_, None) => "not reached, not near".to_owned(),
         };
         let _ = writeln!(
             text,
-            "| {} | {} | {} | {} | {} | {} | {} | {target} | {} | {} |",
+            "| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {at_target} | {} | {} |",
             significant(l.velocity_m_s, 4),
             cell(l.severity, 2),
+            l.lattice,
+            l.best_points,
+            percent(l.best_error),
+            rounded(l.best_s, 3),
+            cell(l.same_s, 3),
+            cell(l.same_ratio, 2),
+            cell(l.same_solid_s, 3),
+            cell(l.same_solid_ratio, 2),
             cell(l.planned_s, 3),
-            percent(l.planned_error),
-            cell(l.lattice_s, 3),
-            percent(l.lattice_error),
-            cell(l.lattice_order, 2),
-            cell(l.lattice_ratio, 2),
+            l.planned_error.map_or_else(String::new, percent),
+            rounded(l.order, 2),
+            cell(l.target_ratio, 2),
             cell(l.thesis_step_ratio, 2),
         );
     }
@@ -190,5 +245,38 @@ mod tests {
         let reach = Reach::of(&met).unwrap();
         assert!(reach.reached && reach.target_s == Some(16.0));
         assert_eq!(Reach::of(&[(0.1, f64::NAN, 1.0), (0.2, 0.1, 1.0)]), None);
+    }
+
+    #[test]
+    fn times_are_compared_at_the_error_of_the_best_lattice() {
+        let row = |ladder: &str, dimension, error, cpu_s| Row {
+            dimension,
+            error,
+            cpu_s,
+            cell_size_rel: 1.0 / cpu_s,
+            velocity_m_s: 3.0,
+            ..Row::empty(ladder, "x")
+        };
+        let rows = [
+            row(LINEAR_LATTICES, 3, 0.3, 1.0),
+            row(LINEAR_LATTICES, 3, 0.1, 8.0),
+            row("cells, degree 2", 2, 0.2, 0.01),
+            row("cells, degree 2", 2, 0.08, 0.04),
+            row("cells, degree 2", 2, 0.02, 0.1),
+            row("cells, 3-D", 3, 0.05, 0.5),
+            // neither another lattice nor a relative stands for this crate
+            row("lattice, degree 1, FLIP", 2, 0.01, 0.001),
+            row("transfer", 2, 0.01, 0.001),
+        ];
+        let all = lines(&rows, 0.0);
+        assert_eq!(all.len(), 1);
+        let line = &all[0];
+        assert_eq!((line.best_error, line.best_s), (0.1, 8.0));
+        assert_eq!(line.same_ratio, Some(8.0 / 0.04));
+        assert_eq!(line.same_solid_ratio, Some(16.0));
+        assert_eq!((line.reached, line.target_ratio), (false, None));
+        assert!(
+            markdown(&all).contains("| 3 |  | lattice, 3-D, degree 1, 8 points a cell, FLIP |")
+        );
     }
 }

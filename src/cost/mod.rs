@@ -13,7 +13,7 @@ pub use pulse::{Misfit, Pulse};
 pub use row::Row;
 pub use table::{Summary, THRESHOLDS};
 
-use crate::curve::Impact;
+use crate::curve::{Impact, number_or_null};
 use serde::{Deserialize, Serialize};
 
 /// A run that has ended.
@@ -30,7 +30,9 @@ pub struct Finished {
 pub struct Footprint {
     /// Memory of points and nodes, bytes.
     pub memory_bytes: usize,
-    /// Energy lost in transfers between points and grid over the incident energy.
+    /// Energy lost in transfers between points and grid over the incident energy; NaN (`null` in the file) where the run came
+    /// apart.
+    #[serde(deserialize_with = "number_or_null")]
     pub transfer_loss: f64,
     /// Processor time, s: what the wall time would be on a machine with nothing else to do.
     pub cpu_s: f64,
@@ -56,6 +58,17 @@ pub fn mark_front(rows: &mut [Row]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_footprint_of_a_run_that_came_apart_is_read_back() {
+        let text = serde_json::to_string(&Footprint {
+            memory_bytes: 1,
+            transfer_loss: f64::NAN,
+            cpu_s: 0.5,
+        });
+        let read: Footprint = serde_json::from_str(&text.unwrap()).unwrap();
+        assert!(read.transfer_loss.is_nan() && read.cpu_s == 0.5);
+    }
 
     #[test]
     fn the_front_holds_what_nothing_beats() {

@@ -15,6 +15,7 @@ use crate::material::stress::Constitutive;
 use crate::plan::Remedies;
 use crate::space::Space;
 use crate::tape::{Keep, Tape, keep_fields};
+use std::ops::Range;
 
 /// Refreshes after which the stable steps are measured anew; in between they follow the steepness of the cells.
 const MOST_AGE: u64 = 3;
@@ -33,8 +34,10 @@ pub struct Level<S: Space, W> {
     contact: W,
     /// Their forces.
     force: Vec<S::Vector>,
-    /// Velocities before these.
+    /// Velocities before these, as far as they are kept.
     old: Vec<S::Vector>,
+    /// Nodes whose velocities before these are kept: all that a contact candidate reaches; every node until that is known.
+    kept: Range<usize>,
 }
 
 keep_fields!(impl [S: Space, W: Wall<S>] Level<S, W>: limit, contact);
@@ -83,6 +86,7 @@ impl<S: Space, W: Wall<S>> LocalStep<S, W> {
             contact: contact.clone(),
             force: vec![S::Vector::default(); nodes],
             old: vec![S::Vector::default(); nodes],
+            kept: 0..nodes,
         };
         LocalStep {
             share,
@@ -190,6 +194,11 @@ impl<S: Space, W: Wall<S>> LocalStep<S, W> {
     ) {
         for (k, level) in self.levels.iter_mut().enumerate().take(points.deepest()) {
             let nodes = points.nodes_of(k + 1);
+            // a candidate shares a node with the level: its others are no farther than a cell's first from its last
+            let reach = points.offsets()[N - 1];
+            if let (Some(first), Some(last)) = (nodes.first(), nodes.last()) {
+                level.kept = first.saturating_sub(reach)..(last + reach + 1).min(u.len());
+            }
             let among = |node| nodes.binary_search(&node).is_ok();
             level.contact.refresh(u, speed, horizon, &among);
         }
@@ -211,7 +220,7 @@ impl<S: Space, W: Wall<S>> LocalStep<S, W> {
         recip_mass: &[S::Vector],
     ) -> Touch {
         let level = &mut self.levels[level - 1];
-        level.old.copy_from_slice(v);
+        level.old[level.kept.clone()].copy_from_slice(&v[level.kept.clone()]);
         for &n in nodes {
             push(&mut v[n], dt, &level.force[n], &recip_mass[n]);
         }

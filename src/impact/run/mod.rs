@@ -276,7 +276,8 @@ where
             .refresh(travel, speed, horizon, &self.model.points);
     }
 
-    /// Stable step of the present configuration; the last one where there is none to go on with.
+    /// Stable step of the present configuration; the last one where there is none to go on with: where erosion gives up, or
+    /// where nothing resists any more because displacements are no numbers.
     fn stable_step(&mut self) -> f64 {
         let model = &mut self.model;
         let found = self.local.stable_step(
@@ -286,7 +287,11 @@ where
             &self.u,
             &model.recip_mass,
         );
-        found.unwrap_or_else(|reason| {
+        let finite = found.and_then(|dt| match dt.is_finite() {
+            true => Ok(dt),
+            false => Err(format!("time step {dt}: the body has come apart")),
+        });
+        finite.unwrap_or_else(|reason| {
             self.failure = Some(reason);
             self.dt
         })
