@@ -133,18 +133,18 @@ impl<C: ContactLaw> Bed<C> {
         if self.relist_due()? {
             self.relist()?;
         }
+        std::mem::swap(&mut self.loads, &mut self.before);
         let (grains, machine, dt) = (&self.grains, &self.machine, self.dt);
         let (contacts, surfaces, law) = (&mut self.contacts, &mut self.surfaces, &self.law);
-        if contacts.is_small() {
-            contacts.evaluate(law, grains, dt);
+        let loads = &mut self.loads;
+        let is_small = contacts.is_small();
+        let pairs = || contacts.evaluate(law, grains, dt);
+        let walls = || {
             surfaces.evaluate(law, grains, machine, dt);
-        } else {
-            rayon::join(
-                || contacts.evaluate(law, grains, dt),
-                || surfaces.evaluate(law, grains, machine, dt),
-            );
-        }
-        self.load_bodies();
+            surfaces.load_into(machine, loads);
+        };
+        both(is_small, pairs, walls);
+        self.book_drives();
         Ok(())
     }
 
@@ -153,11 +153,23 @@ impl<C: ContactLaw> Bed<C> {
     /// # Errors
     /// [`Error::Bed`] when a body's place is no longer a number.
     pub fn advance(&mut self) -> Result<()> {
-        self.kick_and_drift();
-        self.machine
-            .step(&self.loads, self.dt)
-            .map_err(|_| self.broken("a body"))?;
-        self.machine.view();
+        let Listed { centres, moved, .. } = &mut self.listed;
+        let mover = Mover {
+            contacts: &self.contacts,
+            surfaces: &self.surfaces,
+            centres,
+            gravity: self.gravity,
+            dt: self.dt,
+        };
+        let (grains, machine) = (&mut self.grains, &mut self.machine);
+        let (loads, dt) = (&self.loads, self.dt);
+        let bodies = || machine.step(loads, dt).map(|()| machine.view());
+        let ((), stepped) = both(
+            self.contacts.is_small(),
+            || mover.kick_and_drift(grains, moved),
+            bodies,
+        );
+        stepped.map_err(|_| self.broken("a body"))?;
         self.time += self.dt;
         self.step += 1;
         self.fresh = false;
@@ -222,10 +234,8 @@ impl<C: ContactLaw> Bed<C> {
         Ok(())
     }
 
-    /// Sums the loads on bodies; books what driven bodies spent since the last step.
-    fn load_bodies(&mut self) {
-        std::mem::swap(&mut self.loads, &mut self.before);
-        self.surfaces.load_into(&self.machine, &mut self.loads);
+    /// Books what driven bodies spent since the last step.
+    fn book_drives(&mut self) {
         for ((station, now), before) in self
             .machine
             .stations
@@ -242,68 +252,9 @@ impl<C: ContactLaw> Bed<C> {
     }
 
     /// Force and torque of all contacts on a grain, without gravity.
-    #[inline(always)]
     #[must_use]
     pub fn load(&self, grain: usize) -> (Vector, Vector) {
-        let (mut force, mut torque) = self.contacts.load(grain);
-        let (wall_force, wall_torque) = self.surfaces.load(grain);
-        force += wall_force;
-        torque += wall_torque;
-        (force, torque)
-    }
-
-    fn kick_and_drift(&mut self) {
-        let mut grains = std::mem::take(&mut self.grains);
-        let mut moved = std::mem::take(&mut self.listed.moved);
-        let bed = &*self;
-        let Grains {
-            spheres,
-            motions,
-            spins,
-            ..
-        } = &mut grains;
-        if let [moved] = &mut moved[..] {
-            *moved = bed.move_chunk(0, spheres, motions, spins);
-        } else {
-            spheres
-                .par_chunks_mut(CHUNK)
-                .zip(motions.par_chunks_mut(CHUNK))
-                .zip(spins.par_chunks_mut(CHUNK))
-                .zip(moved.par_iter_mut())
-                .enumerate()
-                .for_each(|(chunk, (((spheres, motions), spins), moved))| {
-                    *moved = bed.move_chunk(chunk * CHUNK, spheres, motions, spins);
-                });
-        }
-        self.grains = grains;
-        self.listed.moved = moved;
-    }
-
-    /// Kicks and drifts one chunk of grains; returns the largest squared distance from where they were listed.
-    fn move_chunk(
-        &self,
-        first: usize,
-        spheres: &mut [Sphere],
-        motions: &mut [Motion],
-        spins: &mut [Spin],
-    ) -> f64 {
-        let dt = self.dt;
-        let mut furthest = 0.0;
-        for (at, ((sphere, motion), spin)) in spheres.iter_mut().zip(motions).zip(spins).enumerate()
-        {
-            let (force, torque) = self.load(first + at);
-            motion.velocity += (force * motion.inverse_mass + self.gravity) * dt;
-            sphere.centre += motion.velocity * dt;
-            if C::ROTATES {
-                spin.rate += torque * (spin.inverse_inertia * dt);
-            }
-            let distance = (sphere.centre - self.listed.centres[first + at]).length_squared();
-            // a NaN must come through, so that the run stops
-            if !(distance <= furthest) {
-                furthest = distance;
-            }
-        }
-        furthest
+        load(&self.contacts, &self.surfaces, grain)
     }
 
     /// Energy dissipated by effects so far; plastic flow is booked by contact.
@@ -351,5 +302,95 @@ impl<C: ContactLaw> Bed<C> {
             overlap: radii[0] + radii[1] - self.contacts.line(pair, &self.grains).length(),
             radii,
         }
+    }
+}
+
+/// Two tasks one after the other where one thread does it all, else side by side. Fewer ends of parallel work a step are fewer
+/// moments at which threads fall asleep.
+fn both<A: Send, B: Send>(
+    is_small: bool,
+    first: impl FnOnce() -> A + Send,
+    second: impl FnOnce() -> B + Send,
+) -> (A, B) {
+    if is_small {
+        (first(), second())
+    } else {
+        rayon::join(first, second)
+    }
+}
+
+/// Force and torque of all contacts on a grain.
+#[inline(always)]
+fn load<C: ContactLaw>(
+    contacts: &Contacts<C>,
+    surfaces: &Surfaces<C>,
+    grain: usize,
+) -> (Vector, Vector) {
+    let (mut force, mut torque) = contacts.load(grain);
+    let (wall_force, wall_torque) = surfaces.load(grain);
+    force += wall_force;
+    torque += wall_torque;
+    (force, torque)
+}
+
+/// What moving the grains reads.
+struct Mover<'a, C: ContactLaw> {
+    contacts: &'a Contacts<C>,
+    surfaces: &'a Surfaces<C>,
+    /// Centres when neighbours were listed.
+    centres: &'a [Vector],
+    gravity: Vector,
+    dt: f64,
+}
+
+impl<C: ContactLaw> Mover<'_, C> {
+    /// Kicks and drifts all grains; `moved` gets the largest squared distance of each chunk.
+    fn kick_and_drift(&self, grains: &mut Grains, moved: &mut [f64]) {
+        let Grains {
+            spheres,
+            motions,
+            spins,
+            ..
+        } = grains;
+        if let [moved] = moved {
+            *moved = self.move_chunk(0, spheres, motions, spins);
+            return;
+        }
+        spheres
+            .par_chunks_mut(CHUNK)
+            .zip(motions.par_chunks_mut(CHUNK))
+            .zip(spins.par_chunks_mut(CHUNK))
+            .zip(moved.par_iter_mut())
+            .enumerate()
+            .for_each(|(chunk, (((spheres, motions), spins), moved))| {
+                *moved = self.move_chunk(chunk * CHUNK, spheres, motions, spins);
+            });
+    }
+
+    /// Kicks and drifts one chunk of grains; returns the largest squared distance from where they were listed.
+    fn move_chunk(
+        &self,
+        first: usize,
+        spheres: &mut [Sphere],
+        motions: &mut [Motion],
+        spins: &mut [Spin],
+    ) -> f64 {
+        let dt = self.dt;
+        let mut furthest = 0.0;
+        for (at, ((sphere, motion), spin)) in spheres.iter_mut().zip(motions).zip(spins).enumerate()
+        {
+            let (force, torque) = load(self.contacts, self.surfaces, first + at);
+            motion.velocity += (force * motion.inverse_mass + self.gravity) * dt;
+            sphere.centre += motion.velocity * dt;
+            if C::ROTATES {
+                spin.rate += torque * (spin.inverse_inertia * dt);
+            }
+            let distance = (sphere.centre - self.centres[first + at]).length_squared();
+            // a NaN must come through, so that the run stops
+            if !(distance <= furthest) {
+                furthest = distance;
+            }
+        }
+        furthest
     }
 }
