@@ -24,6 +24,9 @@ use crate::tape::{Keeper, keep_fields};
 pub(super) const OUTPUTS: f64 = 400.0;
 /// Energy imbalance (of the incident kinetic energy) beyond which a run is stopped as unstable.
 const UNSTABLE: f64 = 0.05;
+/// Stable step, in times that a bar wave takes through the smallest cell, below which a run is stopped: a node has hardly any
+/// mass (a point on the rim of its functions), or cells are crushed for good. Sound runs stay above a hundredth.
+const LEAST_STEP: f64 = 1e-3;
 /// Most steps between refreshes of the stable time step and the contact candidates.
 const REFRESH: f64 = 50.0;
 /// Share of a cell that the wall may cover between refreshes: the stable step follows the strain of fast impacts.
@@ -276,8 +279,8 @@ where
             .refresh(travel, speed, horizon, &self.model.points);
     }
 
-    /// Stable step of the present configuration; the last one where there is none to go on with: where erosion gives up, or
-    /// where nothing resists any more because displacements are no numbers.
+    /// Stable step of the present configuration; the last one where there is none to go on with: where erosion gives up, where
+    /// displacements are no numbers any more, or where it would take for ever.
     fn stable_step(&mut self) -> f64 {
         let model = &mut self.model;
         let found = self.local.stable_step(
@@ -287,11 +290,14 @@ where
             &self.u,
             &model.recip_mass,
         );
-        let finite = found.and_then(|dt| match dt.is_finite() {
+        let least = LEAST_STEP * self.plan.grid.fine;
+        let found = found.and_then(|dt| match dt.is_finite() && dt >= least {
             true => Ok(dt),
-            false => Err(format!("time step {dt}: the body has come apart")),
+            false => Err(format!(
+                "stable time step {dt:e} R/c0: nodes without mass, or a body that has come apart"
+            )),
         });
-        finite.unwrap_or_else(|reason| {
+        found.unwrap_or_else(|reason| {
             self.failure = Some(reason);
             self.dt
         })
