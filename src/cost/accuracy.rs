@@ -105,14 +105,13 @@ pub struct Line {
     pub planned_error: Option<f64>,
     /// The lattice's time at 1 % over the planned run's.
     pub target_ratio: Option<f64>,
-    /// Steps of the thesis over those of a lattice of the same points with the stable step.
-    pub thesis_step_ratio: Option<f64>,
 }
 
 /// The lines of one speed from all its rows: one for each kind of lattice of which there are two runs or more.
 #[must_use]
 pub fn lines(rows: &[Row], severity: f64) -> Vec<Line> {
-    [CUBIC_LATTICES, LINEAR_LATTICES]
+    let preset = thesis::ladder(Geometry::Quarter, 0);
+    [&preset, CUBIC_LATTICES, LINEAR_LATTICES]
         .into_iter()
         .filter_map(|ladder| Line::of(ladder, rows, severity))
         .collect()
@@ -162,19 +161,8 @@ impl Line {
             planned_s,
             planned_error: planned.map(|r| r.error),
             target_ratio: over(reach.target_s, planned_s),
-            thesis_step_ratio: step_ratio(rows, ladder),
         })
     }
-}
-
-/// Steps of the thesis' longest fixed step over those of a lattice of this ladder with the same points.
-fn step_ratio(rows: &[Row], ladder: &str) -> Option<f64> {
-    let preset = thesis::ladder(Geometry::Quarter, 0);
-    rows.iter().filter(|r| r.ladder == preset).find_map(|r| {
-        let is_twin = |l: &&Row| l.ladder == ladder && l.points == r.points && l.error.is_finite();
-        let twin = rows.iter().find(is_twin)?;
-        Some(r.steps as f64 / twin.steps as f64)
-    })
 }
 
 /// The lines as Markdown.
@@ -183,14 +171,14 @@ pub fn markdown(lines: &[Line]) -> String {
     let target = significant(TARGET * 100.0, 2);
     let mut text = format!(
         "\n# Time at equal accuracy: lattices in three dimensions and this crate\n\nAccuracy: the largest error in F*, delta* \
-         and e against the finest run. Lattices: a quarter of the sphere, FLIP, the largest stable step; with cubic splines and \
-         one point a cell the thesis' scheme, whose own time step takes the steps of the last column more. First the most \
+         and e against the finest run. Lattices: a quarter of the sphere, FLIP. Thesis: its settings with the longest of its time \
+         steps; the other two take the largest stable step. First the most \
          accurate lattice of the ladder, and the cheapest runs of this crate that are no less accurate, in the section and in \
          three dimensions. Then an error of {target} %: the run that `impactlaw impact` plans for that tolerance, and the time \
          at which the lattices would reach it, extrapolated by the order p of their error in the cell size and by that of their \
          time.\n\n| V, m/s | rho V^2/Y | lattice | points | error % | s | section s | ratio | 3-D s | ratio | planned s | error % \
-         | p | lattice at {target} %, s | ratio | steps of the thesis \
-         |\n|--:|--:|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n"
+         | p | lattice at {target} %, s | ratio \
+         |\n|--:|--:|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n"
     );
     let cell = |x: Option<f64>, digits| x.map_or_else(String::new, |x| rounded(x, digits));
     let percent = |x: f64| format!("{:.2}", 100.0 * x);
@@ -202,7 +190,7 @@ pub fn markdown(lines: &[Line]) -> String {
         };
         let _ = writeln!(
             text,
-            "| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {at_target} | {} | {} |",
+            "| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {at_target} | {} |",
             significant(l.velocity_m_s, 4),
             cell(l.severity, 2),
             l.lattice,
@@ -217,7 +205,6 @@ pub fn markdown(lines: &[Line]) -> String {
             l.planned_error.map_or_else(String::new, percent),
             rounded(l.order, 2),
             cell(l.target_ratio, 2),
-            cell(l.thesis_step_ratio, 2),
         );
     }
     text
