@@ -225,14 +225,14 @@ fn check(impact: &Impact) -> Result<()> {
     })
 }
 
-/// Name under which a ladder's points stand in the figure.
+/// Name under which a ladder's points stand in the figure: as many as there are colours to tell them apart.
 fn group(ladder: &str) -> &str {
     match ladder {
         "points" | "time step" | "far cells" | "growth" => "grid details",
         _ if ladder.starts_with("lattice, 3-D") => "lattices, 3-D",
         _ if ladder.starts_with("lattice") => "lattices, section",
-        _ if ladder.starts_with("thesis, 3-D") => "thesis preset, 3-D",
-        _ if ladder.starts_with("thesis") => "thesis preset, section",
+        _ if ladder.starts_with("thesis") => "thesis preset",
+        "cells, degree 1" | "cells, degree 3" => "cells, degrees 1 and 3",
         "transfer" => "FLIP, PIC, APIC",
         "planned" => "planned for 5 to 0.5 %",
         other => other,
