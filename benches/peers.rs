@@ -1,10 +1,12 @@
 //! A run that other codes can repeat: the shared packing is shaken and comes to rest, walls being of the grains' material.
 //!
 //!     cargo bench --bench peers -- [--write DIR] [--steps N] [--across N] [--threads N] [--nudge SEED]
+//!                                  [--friction MU] [--restitution E] [--dt SECONDS]
 //!
 //! prints rows of step, kinetic energy (J), contacts per grain, mean and largest height (m), then the particle-steps a
 //! second, and peak memory where the system tells. `--nudge` moves every grain by up to 1e-9 of its radius first, to see how far
-//! two runs of one scene drift apart. `--write` writes the packing for LAMMPS and LIGGGHTS instead.
+//! two runs of one scene drift apart. `--write` writes the packing for LAMMPS and LIGGGHTS instead, its velocities being those of
+//! the same friction, restitution and step.
 //! `benches/peers.sh` runs all of them and compares.
 
 mod packing;
@@ -36,6 +38,10 @@ fn argument(name: &str) -> Option<String> {
 
 fn number(name: &str, otherwise: usize) -> usize {
     argument(name).map_or(otherwise, |text| text.parse().expect("a whole number"))
+}
+
+fn coefficient(name: &str, otherwise: f64) -> f64 {
+    argument(name).map_or(otherwise, |text| text.parse().expect("a number"))
 }
 
 /// The packing with every grain moving, none faster than the shake.
@@ -103,7 +109,7 @@ fn bed(across: usize) -> Bed<Law<Viscous, Mindlin, ()>> {
         grains: shaken(across),
         machine: packing::walls(across),
         gravity: GRAVITY,
-        dt: DT,
+        dt: coefficient("--dt", DT),
         skin: 0.2 * RADIUS,
     };
     // a wall of the grains' material: 1/E* = 2 (1 - nu^2)/E
@@ -112,8 +118,9 @@ fn bed(across: usize) -> Bed<Law<Viscous, Mindlin, ()>> {
         pair: Box::new(Model(Twins(Hertz::of(&MATERIAL)))),
         wall: Box::new(Model(Flat(wall))),
     };
-    let friction = Mindlin::between([Some(&MATERIAL); 2], 0.5);
-    Bed::new(Law::new(Viscous::new(0.8), friction, ()), normals, parts)
+    let friction = Mindlin::between([Some(&MATERIAL); 2], coefficient("--friction", 0.5));
+    let damping = Viscous::new(coefficient("--restitution", 0.8));
+    Bed::new(Law::new(damping, friction, ()), normals, parts)
 }
 
 /// Peak memory of this process in bytes, where /proc tells.
