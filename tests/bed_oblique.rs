@@ -3,71 +3,19 @@
 
 mod two_bodies;
 
-use impactlaw::bed::bodies::Mobility;
 use impactlaw::bed::friction::Mindlin;
-use impactlaw::bed::grains::Grains;
 use impactlaw::bed::law::Law;
-use impactlaw::contact::NormalLaw;
-use impactlaw::contact::pair::{Flat, Twins};
 use impactlaw::contact::rebound::rebound;
+use impactlaw::material::Material;
 use impactlaw::theory::hertz::Hertz;
 use parry3d::math::Vector;
 use std::f64::consts::PI;
-use two_bodies::{MATERIAL, RADIUS, Straight, bed, collide, floor};
+use two_bodies::{Bare, MATERIAL, RADIUS, Straight, thrown};
 
-/// Contact radius over R of a [`Constant`] law.
-const CONSTANT_RADIUS: f64 = 0.002;
-
-/// A law whose contacts have one radius.
-#[derive(Debug, Clone)]
-struct Constant<L>(L);
-
-impl<L: NormalLaw> NormalLaw for Constant<L> {
-    type History = L::History;
-
-    fn force(&self, x: f64, history: &mut L::History) -> f64 {
-        self.0.force(x, history)
-    }
-
-    fn stiffness(&self, x: f64, history: &L::History) -> f64 {
-        self.0.stiffness(x, history)
-    }
-
-    fn elastic_energy(&self, x: f64, history: &L::History) -> f64 {
-        self.0.elastic_energy(x, history)
-    }
-
-    fn contact_radius(&self, _: f64, _: &L::History) -> Option<f64> {
-        Some(CONSTANT_RADIUS)
-    }
-
-    fn valid_to(&self) -> f64 {
-        f64::INFINITY
-    }
-}
-
-/// Grain with a Mindlin law thrown obliquely on the floor; returns velocity and spin afterwards.
-fn oblique(friction: f64, velocity: Vector) -> (Vector, Vector) {
-    let effects = Law::new((), Mindlin::new(&MATERIAL, friction), ());
-    let law = Hertz::of(&MATERIAL);
-    let mut grains = Grains::default();
-    grains.add(
-        Vector::new(0.0, 0.0, RADIUS * (1.0 + 1e-9)),
-        RADIUS,
-        MATERIAL.density,
-    );
-    grains.motions[0].velocity = velocity;
-    let time = rebound(&law, RADIUS, MATERIAL.sphere_mass(RADIUS), velocity.z.abs()).contact_time;
-    let mut bed = bed(
-        effects,
-        Twins(law),
-        Flat(law),
-        grains,
-        floor(Mobility::Fixed),
-        time / 4000.0,
-    );
-    collide(&mut bed);
-    (bed.grains.motions[0].velocity, bed.grains.spins[0].rate)
+/// Grain under Hertz's and Mindlin's laws thrown obliquely on the floor; returns velocity and spin afterwards.
+fn oblique(material: &Material, friction: f64, velocity: Vector) -> [Vector; 2] {
+    let effects = Law::new((), Mindlin::new(material, friction), ());
+    thrown(effects, Hertz::of(material), material, velocity, 4000.0)
 }
 
 #[test]
@@ -75,7 +23,7 @@ fn a_grain_that_slides_through_the_impact_leaves_as_coulomb_says() {
     // sliding throughout needs tan(angle) > mu (1 + e) 7/2: dv_t = -mu (1 + e) v_n, R dw = 5/2 dv_t
     // (slow, because the lever arm R - delta is then R to 5 digits)
     let (mu, v_n, v_t) = (0.1, 1e-4, 2e-4);
-    let (velocity, spin) = oblique(mu, Vector::new(v_t, 0.0, -v_n));
+    let [velocity, spin] = oblique(&MATERIAL, mu, Vector::new(v_t, 0.0, -v_n));
     let change = mu * 2.0 * v_n;
     assert!(
         (velocity.x - (v_t - change)).abs() < 1e-5 * v_t,
@@ -89,12 +37,36 @@ fn a_grain_that_slides_through_the_impact_leaves_as_coulomb_says() {
 }
 
 #[test]
+fn a_yielding_grain_that_slides_through_leaves_as_a_rigid_body_with_coulomb_friction() {
+    // Walton 1993, sliding: dv_t = -mu (1 + e) v_n, R dw = dv_t/K, K = I/(m R^2) = 2/5, and so for the point of contact
+    // dv_s = -(1 + 1/K) mu (1 + e) v_n, whatever takes the normal energy: here yielding, e = 1/2
+    let law = Bare {
+        law: Straight {
+            loading: 1e9,
+            unloading: 4e9,
+        },
+        contact_radius: Some(0.002),
+    };
+    let (mu, v_n, v_t, e) = (0.2, 1e-4, 3e-4, 0.5);
+    let effects = Law::new((), Mindlin::new(&MATERIAL, mu), ());
+    let velocity = Vector::new(v_t, 0.0, -v_n);
+    let [velocity, spin] = thrown(effects, law, &MATERIAL, velocity, 20_000.0);
+    let change = mu * (1.0 + e) * v_n;
+    let found = [
+        velocity.z - e * v_n,
+        velocity.x - (v_t - change),
+        RADIUS * spin.y - 2.5 * change,
+    ];
+    assert!(found.iter().all(|off| off.abs() < 1e-5 * v_n), "{found:?}");
+}
+
+#[test]
 fn oblique_rebounds_keep_spin_about_the_contact_lose_energy_and_recoil_at_medium_angles() {
     let v_n = 1e-4;
     let mut recoiled = false;
     for tangent in [0.05, 0.2, 0.5, 1.0, 1.5, 2.0, 3.0] {
         let v_t = tangent * v_n;
-        let (velocity, spin) = oblique(0.3, Vector::new(v_t, 0.0, -v_n));
+        let [velocity, spin] = oblique(&MATERIAL, 0.3, Vector::new(v_t, 0.0, -v_n));
         let about_contact = velocity.x + 0.4 * RADIUS * spin.y;
         assert!(
             (about_contact / v_t - 1.0).abs() < 1e-5,
@@ -156,7 +128,7 @@ fn oblique_rebounds_follow_mindlin_and_coulomb_from_sticking_to_sliding() {
     let mut worst = 0.0f64;
     for tangent in [0.05, 0.2, 0.5, 0.8, 1.2, 1.6, 2.0, 3.0] {
         let v_t = tangent * v_n;
-        let (velocity, spin) = oblique(friction, Vector::new(v_t, 0.0, -v_n));
+        let [velocity, spin] = oblique(&MATERIAL, friction, Vector::new(v_t, 0.0, -v_n));
         let [centre, surface] = mindlin_impact(friction, v_t, v_n);
         let ours = [velocity.x, velocity.x - RADIUS * spin.y];
         println!(
@@ -182,20 +154,18 @@ fn a_grain_that_sticks_to_linear_springs_turns_back_as_their_periods_say() {
     };
     let normal = 1e9 * RADIUS;
     let shear = MATERIAL.young_modulus / (2.0 * (1.0 + MATERIAL.poisson_ratio));
-    let constant = Constant(law);
-    let tangential = 8.0 * shear / (2.0 - MATERIAL.poisson_ratio) * CONSTANT_RADIUS * RADIUS;
+    // contact radius over R
+    let constant = 0.002;
+    let tangential = 8.0 * shear / (2.0 - MATERIAL.poisson_ratio) * constant * RADIUS;
+    let law = Bare {
+        law,
+        contact_radius: Some(constant),
+    };
     let effects = Law::new((), Mindlin::new(&MATERIAL, 1e9), ());
-    let mut grains = Grains::default();
-    let place = Vector::new(0.0, 0.0, RADIUS * (1.0 + 1e-12));
-    grains.add(place, RADIUS, MATERIAL.density);
     let (v_t, v_n) = (1e-5, 1e-5);
-    grains.motions[0].velocity = Vector::new(v_t, 0.0, -v_n);
-    let time = rebound(&law, RADIUS, MATERIAL.sphere_mass(RADIUS), v_n).contact_time;
-    let dt = time / 20_000.0;
-    let floor = floor(Mobility::Fixed);
-    let mut bed = bed(effects, Twins(law), Flat(constant), grains, floor, dt);
-    collide(&mut bed);
-    let slip = bed.grains.motions[0].velocity.x - RADIUS * bed.grains.spins[0].rate.y;
+    let velocity = Vector::new(v_t, 0.0, -v_n);
+    let [velocity, spin] = thrown(effects, law, &MATERIAL, velocity, 20_000.0);
+    let slip = velocity.x - RADIUS * spin.y;
     let closed_form = (PI * (3.5 * tangential / normal).sqrt()).cos();
     assert!(
         (slip / v_t - closed_form).abs() < 1e-3,

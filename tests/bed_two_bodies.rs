@@ -16,7 +16,7 @@ use impactlaw::material::Material;
 use impactlaw::theory::hertz::Hertz;
 use parry3d::math::Vector;
 use std::path::Path;
-use two_bodies::{MATERIAL, RADIUS, Straight, bed, collide, empty, floor, smooth};
+use two_bodies::{Bare, MATERIAL, RADIUS, Straight, bed, collide, empty, floor, smooth};
 
 /// Speed after over speed before of a grain thrown on a fixed block, in `steps` a contact time.
 fn wall_restitution(
@@ -94,34 +94,6 @@ fn a_yielding_grain_rebounds_as_its_law_says() {
     );
 }
 
-/// A law without its inertia term, as beds use it.
-#[derive(Debug, Clone)]
-struct AtRest<L>(L);
-
-impl<L: NormalLaw> NormalLaw for AtRest<L> {
-    type History = L::History;
-
-    fn force(&self, x: f64, history: &mut L::History) -> f64 {
-        self.0.force(x, history)
-    }
-
-    fn stiffness(&self, x: f64, history: &L::History) -> f64 {
-        self.0.stiffness(x, history)
-    }
-
-    fn elastic_energy(&self, x: f64, history: &L::History) -> f64 {
-        self.0.elastic_energy(x, history)
-    }
-
-    fn contact_radius(&self, x: f64, history: &L::History) -> Option<f64> {
-        self.0.contact_radius(x, history)
-    }
-
-    fn valid_to(&self) -> f64 {
-        self.0.valid_to()
-    }
-}
-
 /// Restitution in the bed and by [`rebound`] of a law at rest, at each of its speeds.
 struct AtSpeeds<'a>(&'a [f64], &'a Material);
 
@@ -131,7 +103,11 @@ impl LawVisitor for AtSpeeds<'_> {
     fn visit<L: NormalLaw>(self, law: &L) -> Self::Output {
         let mass = self.1.sphere_mass(RADIUS);
         let each = |&speed: &f64| {
-            let alone = rebound(&AtRest(law.clone()), RADIUS, mass, speed);
+            let bare = Bare {
+                law: law.clone(),
+                contact_radius: None,
+            };
+            let alone = rebound(&bare, RADIUS, mass, speed);
             let bed = wall_restitution(
                 law.clone(),
                 self.1.density,

@@ -9,7 +9,8 @@ use impactlaw::bed::machine::Machine;
 use impactlaw::bed::normals::{Model, NormalModel};
 use impactlaw::bed::step::{Bed, Normals, Parts};
 use impactlaw::contact::NormalLaw;
-use impactlaw::contact::pair::Press;
+use impactlaw::contact::pair::{Flat, Press, Twins};
+use impactlaw::contact::rebound::rebound;
 use impactlaw::material::{Flow, Material};
 use parry3d::math::{Rotation, Vector};
 
@@ -62,6 +63,38 @@ impl NormalLaw for Straight {
     }
 }
 
+/// A law as beds use it, without its inertia term, whose contacts have one radius over R if `contact_radius` is given.
+#[derive(Debug, Clone)]
+pub struct Bare<L> {
+    pub law: L,
+    pub contact_radius: Option<f64>,
+}
+
+impl<L: NormalLaw> NormalLaw for Bare<L> {
+    type History = L::History;
+
+    fn force(&self, x: f64, history: &mut L::History) -> f64 {
+        self.law.force(x, history)
+    }
+
+    fn stiffness(&self, x: f64, history: &L::History) -> f64 {
+        self.law.stiffness(x, history)
+    }
+
+    fn elastic_energy(&self, x: f64, history: &L::History) -> f64 {
+        self.law.elastic_energy(x, history)
+    }
+
+    fn contact_radius(&self, x: f64, history: &L::History) -> Option<f64> {
+        let given = self.contact_radius;
+        given.or_else(|| self.law.contact_radius(x, history))
+    }
+
+    fn valid_to(&self) -> f64 {
+        self.law.valid_to()
+    }
+}
+
 /// Bed of `grains` whose pairs are pressed by `pair` and whose surface contacts by `wall`.
 pub fn bed<C: ContactLaw>(
     effects: C,
@@ -105,6 +138,27 @@ pub fn floor(mobility: Mobility) -> Machine {
         mobility,
     };
     Machine::new(vec![body], Vector::ZERO, RADIUS).unwrap()
+}
+
+/// Velocity and spin of a grain of `material` after it was thrown on a rigid floor, in `steps` a contact time of `law` alone.
+pub fn thrown<C: ContactLaw>(
+    effects: C,
+    law: impl NormalLaw,
+    material: &Material,
+    velocity: Vector,
+    steps: f64,
+) -> [Vector; 2] {
+    let mut grains = Grains::default();
+    let place = Vector::new(0.0, 0.0, RADIUS * (1.0 + 1e-9));
+    grains.add(place, RADIUS, material.density);
+    grains.motions[0].velocity = velocity;
+    let mass = material.sphere_mass(RADIUS);
+    let time = rebound(&law, RADIUS, mass, velocity.z.abs()).contact_time;
+    let floor = floor(Mobility::Fixed);
+    let pair = Twins(law.clone());
+    let mut bed = bed(effects, pair, Flat(law), grains, floor, time / steps);
+    collide(&mut bed);
+    [bed.grains.motions[0].velocity, bed.grains.spins[0].rate]
 }
 
 /// Runs until the first grain has been pushed and is free again.
