@@ -52,7 +52,7 @@ impl Ladder<'_> {
     /// cell with FLIP, which a section affords fine enough to show the order of the error.
     ///
     /// One point a cell leaves motions of cubic nodes that no point resists. A transfer filters some of them every step; with
-    /// the velocity on the nodes the body sinks into itself (`tests/impact_schemes.rs`), which is why this crate fills its
+    /// the velocity on the nodes the body sinks into itself (`tests/impact/schemes.rs`), which is why this crate fills its
     /// cells with Gauss points.
     pub(super) fn lattices(&self) -> Vec<Rung> {
         let counts: &[f64] = if self.is_quick() {

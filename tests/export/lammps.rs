@@ -1,9 +1,8 @@
 //! The exported law in LAMMPS: single impacts, and what contacts remember under several processors.
 
-mod codes;
-
-use codes::assert_close;
-use codes::exported::Exported;
+use crate::codes;
+use crate::codes::assert_close;
+use crate::codes::exported::Exported;
 use impactlaw::export::check::lammps::LammpsCheck;
 use impactlaw::export::scene::Code;
 

@@ -1,7 +1,6 @@
 //! Models that codes ship, fitted to a law: closed forms of the models, and lines that give in the code what they predict.
 
-mod codes;
-
+use crate::codes;
 use impactlaw::contact::NormalLaw;
 use impactlaw::contact::rebound::rebound;
 use impactlaw::export::check::{Check, Finding, NativeCheck};

@@ -1,8 +1,6 @@
 //! The granular sub-model for builders of LAMMPS, compiled and run against a shim of its interface.
 
-mod codes;
-
-use codes::{assert_close, laws, succeed, write};
+use crate::codes::{self, assert_close, laws, succeed, write};
 use impactlaw::export::lammps;
 use std::path::Path;
 use std::process::Command;

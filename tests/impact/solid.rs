@@ -1,12 +1,10 @@
 //! Impacts in three dimensions: against the axisymmetric solver, and the impulses and spin of friction.
 
-mod maw_barber_fawcett;
-
+use crate::maw_barber_fawcett::tangential_restitution;
 use impactlaw::case::Case;
 use impactlaw::curve::{Impact, Status};
 use impactlaw::impact::simulate;
 use impactlaw::plan::{Geometry, Plan, plan};
-use maw_barber_fawcett::tangential_restitution;
 use std::path::Path;
 
 /// An elastic impact at a fiftieth of the wave speed on a coarse grid.

@@ -5,15 +5,13 @@
 //! benchmark5_graph2.dat): read off the figures of the paper, hence good to about one per cent of an axis. The paper itself was
 //! not at hand.
 
-mod two_bodies;
-
+use crate::collisions::{RADIUS, thrown};
 use impactlaw::bed::damping::Viscous;
 use impactlaw::bed::friction::Mindlin;
 use impactlaw::bed::law::Law;
 use impactlaw::material::Material;
 use impactlaw::theory::hertz::Hertz;
 use parry3d::math::Vector;
-use two_bodies::{RADIUS, thrown};
 
 /// Incidence (degrees from the normal), tangential restitution of the centre: 5 mm aluminium oxide spheres on thick glass at
 /// 3.9 m/s, e = 0.98, mu = 0.092, as measured (Kharaz, Gorham and Salman 2001, Powder Technology 120, 281).

@@ -1,7 +1,5 @@
 //! Two bodies: what tests of single impacts in the bed share.
 
-#![allow(dead_code, reason = "each test binary uses a part")]
-
 use impactlaw::bed::bodies::{Body, Mobility, Solid};
 use impactlaw::bed::grains::Grains;
 use impactlaw::bed::law::{ContactLaw, Law};

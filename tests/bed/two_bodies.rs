@@ -1,7 +1,6 @@
 //! Two bodies in the bed against closed forms and against the 1-D rebound of the same law.
 
-mod two_bodies;
-
+use crate::collisions::{Bare, MATERIAL, RADIUS, Straight, bed, collide, empty, floor, smooth};
 use impactlaw::bed::bodies::{Freedom, Mobility};
 use impactlaw::bed::damping::Viscous;
 use impactlaw::bed::friction::{Mindlin, RollingSpring};
@@ -16,7 +15,6 @@ use impactlaw::material::Material;
 use impactlaw::theory::hertz::Hertz;
 use parry3d::math::Vector;
 use std::path::Path;
-use two_bodies::{Bare, MATERIAL, RADIUS, Straight, bed, collide, empty, floor, smooth};
 
 /// Speed after over speed before of a grain thrown on a fixed block, in `steps` a contact time.
 fn wall_restitution(

@@ -1,8 +1,6 @@
 //! The exported C law is the law: compiled without a warning and run along random paths; and what `export` refuses.
 
-mod codes;
-
-use codes::{assert_close, models, put_input, succeed};
+use crate::codes::{self, assert_close, models, put_input, succeed};
 use impactlaw::contact::rebound::{Rebound, rebound};
 use impactlaw::contact::{LawVisitor, NormalLaw};
 use impactlaw::export::c;

@@ -1,7 +1,6 @@
 //! Removal of a touched body: what its contacts hold leaves the account, what they have dissipated stays.
 
-mod two_bodies;
-
+use crate::collisions::{MATERIAL, RADIUS, Straight, bed, floor};
 use impactlaw::bed::bodies::Mobility;
 use impactlaw::bed::friction::Mindlin;
 use impactlaw::bed::grains::Grains;
@@ -11,7 +10,6 @@ use impactlaw::contact::pair::{Flat, Twins};
 use impactlaw::contact::rebound::rebound;
 use impactlaw::theory::hertz::Hertz;
 use parry3d::math::Vector;
-use two_bodies::{MATERIAL, RADIUS, Straight, bed, floor};
 
 /// Plastic and stored energy (J) of an oblique impact that is half over, before and after its floor is taken out and
 /// the grain has gone on, with the change of the balance since.

@@ -1,17 +1,14 @@
 //! Oblique impacts of an elastic ball in the bed: in closed form where it sticks and where it slides throughout, beside the
 //! theory with micro-slip, and beside published results.
 
-mod maw_barber_fawcett;
-mod two_bodies;
-
+use crate::collisions::{RADIUS, thrown};
+use crate::maw_barber_fawcett::tangential_restitution;
 use impactlaw::bed::friction::Mindlin;
 use impactlaw::bed::law::Law;
 use impactlaw::material::Material;
 use impactlaw::theory::hertz::Hertz;
-use maw_barber_fawcett::tangential_restitution;
 use parry3d::math::Vector;
 use std::f64::consts::PI;
-use two_bodies::{RADIUS, thrown};
 
 const BALL: Material = Material {
     density: 7850.0,

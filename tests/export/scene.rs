@@ -1,9 +1,7 @@
 //! Whole scenes in LAMMPS and LIGGGHTS: an oedometer exported, run there, and held against the bed that runs here.
 
-mod codes;
-
-use codes::exported::Installed;
-use codes::{assert_close, solder, succeed};
+use crate::codes::exported::Installed;
+use crate::codes::{self, assert_close, solder, succeed};
 use impactlaw::export::scene::Code;
 use std::path::{Path, PathBuf};
 use std::process::Command;

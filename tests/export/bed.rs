@@ -3,12 +3,9 @@
 //! Two beds: solder shaken so hard that it yields, from a packing loosened until no grain touches another, so that every
 //! contact begins within the run; and the settled packing of soft grains under its weight.
 
-mod codes;
-#[path = "../benches/packing/mod.rs"]
-mod packing;
-
-use codes::exported::Exported;
-use codes::{assert_close, soft_law, solder};
+use crate::codes::exported::Exported;
+use crate::codes::{assert_close, soft_law, solder};
+use crate::packing;
 use impactlaw::bed::damping::Viscous;
 use impactlaw::bed::friction::Mindlin;
 use impactlaw::bed::grains::Grains;

@@ -1,7 +1,5 @@
 //! Other codes in tests: laws exported and built for them, runs read, and a loud word where a code is not installed.
 
-#![allow(dead_code, reason = "each test binary uses its part")]
-
 pub mod exported;
 
 use impactlaw::export::Artifact;

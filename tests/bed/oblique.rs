@@ -1,8 +1,7 @@
 //! Oblique impacts of a grain in the bed: gross sliding and swinging springs in closed form, everything between against
 //! equations of motion of its own.
 
-mod two_bodies;
-
+use crate::collisions::{Bare, MATERIAL, RADIUS, Straight, thrown};
 use impactlaw::bed::friction::Mindlin;
 use impactlaw::bed::law::Law;
 use impactlaw::contact::rebound::rebound;
@@ -10,7 +9,6 @@ use impactlaw::material::Material;
 use impactlaw::theory::hertz::Hertz;
 use parry3d::math::Vector;
 use std::f64::consts::PI;
-use two_bodies::{Bare, MATERIAL, RADIUS, Straight, thrown};
 
 /// Grain under Hertz's and Mindlin's laws thrown obliquely on the floor; returns velocity and spin afterwards.
 fn oblique(material: &Material, friction: f64, velocity: Vector) -> [Vector; 2] {

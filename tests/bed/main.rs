@@ -1,0 +1,21 @@
+//! Beds of grains: contacts, bodies and periodic sides, scenes from their files to their pages, and refusals.
+
+mod adapter;
+mod bodies;
+mod collisions;
+mod files;
+mod many;
+#[path = "../support/maw_barber_fawcett.rs"]
+mod maw_barber_fawcett;
+mod mixture;
+mod oblique;
+mod oblique_elastic;
+mod oblique_published;
+mod page;
+mod periodic;
+mod refusals;
+mod removal;
+mod restart;
+mod resume;
+mod scenes;
+mod two_bodies;

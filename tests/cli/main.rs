@@ -1,0 +1,10 @@
+//! The program from outside: what each verb writes, what it refuses, and that interrupted runs go on.
+
+mod bed_resume;
+mod bed_shipped;
+mod cost;
+mod impact;
+mod report_page;
+mod resume;
+mod study;
+mod verbs;

@@ -1,0 +1,13 @@
+//! Exported laws and scenes: compiled, run in the codes they are for, and beside this library.
+
+mod bed;
+mod c;
+mod codes;
+mod granular;
+mod lammps;
+mod liggghts;
+mod native;
+#[path = "../../benches/packing/mod.rs"]
+mod packing;
+mod scene;
+mod shims;

@@ -1,0 +1,11 @@
+//! Simulated impacts: closed forms, schemes and geometries beside each other, and what accuracy costs.
+
+mod cost_thesis;
+mod elastic;
+mod hard;
+mod large;
+#[path = "../support/maw_barber_fawcett.rs"]
+mod maw_barber_fawcett;
+mod plastic;
+mod schemes;
+mod solid;

@@ -1,0 +1,12 @@
+//! Contact laws: fitted ones, published ones, and the impacts that either gives.
+
+mod fit_finite_element;
+mod fit_synthetic;
+mod law_file;
+mod law_guarantees;
+mod rebound_inertia;
+mod theory_command;
+mod theory_compare;
+mod theory_properties;
+mod theory_rebound;
+mod theory_values;
