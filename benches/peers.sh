@@ -11,8 +11,8 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 TIMEFORMAT=%U
 
-build=$(cargo bench --no-run --bench peers --message-format=json 2>/dev/null |
-    grep -o '"executable":"[^"]*peers-[^"]*"' | tail -1 | cut -d'"' -f4)
+build=$(cargo build --release --example peers --message-format=json 2>/dev/null |
+    grep -o '"executable":"[^"]*peers"' | tail -1 | cut -d'"' -f4)
 "$build" --write "$folder"
 cp benches/peers/*.in "$folder"
 cd "$folder"

@@ -230,7 +230,7 @@ impl Curve {
     /// Square of the speed of the centre of mass (m2/s2) at every sample of a body of `mass` (kg) that came at
     /// `velocity` (m/s), from the work of the wall force so far (trapezoidal rule):
     ///
-    /// $$ \dot\delta^2 = V^2 - \frac2m \int_0^\delta F\,d\delta $$
+    /// $$ \dot\delta^2 = V^2 - \frac2m \int_0^\delta F\ d\delta $$
     #[must_use]
     pub fn squared_speeds(&self, velocity: f64, mass: f64) -> Vec<f64> {
         let (mut work, mut before) = (0.0, (0.0, 0.0));

@@ -57,7 +57,7 @@ impl Damping for () {
 
 /// Dashpot that gives an elastic Hertz contact the same restitution at every speed.
 ///
-/// $$ F_d = 2 \sqrt{\tfrac56} \, \beta \sqrt{m^* k} \, \dot\delta, \qquad \beta = \frac{-\ln e}{\sqrt{\pi^2 + \ln^2 e}} $$
+/// $$ F_d = 2 \sqrt{\tfrac56}\ \beta \sqrt{m^\ast k}\ \dot\delta, \qquad \beta = \frac{-\ln e}{\sqrt{\pi^2 + \ln^2 e}} $$
 ///
 /// | symbol | unit | meaning |
 /// |---|---|---|
@@ -69,7 +69,7 @@ impl Damping for () {
 /// the end of a contact is left out, so that the measured e is slightly above the nominal one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Viscous {
-    /// $2 \sqrt{5/6} \, \beta$.
+    /// $2 \sqrt{5/6}\ \beta$.
     factor: f64,
 }
 

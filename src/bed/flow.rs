@@ -58,7 +58,7 @@ pub fn steady_rate(series: &[[f64; 2]]) -> Option<f64> {
 
 /// Rate (kg/s) at which grains leave a flat-bottomed silo through a round orifice.
 ///
-/// $$ W = C \rho_b \sqrt{g} \, (D - k d)^{5/2} $$
+/// $$ W = C \rho_b \sqrt{g}\ (D - k d)^{5/2} $$
 ///
 /// | symbol | argument | unit | meaning |
 /// |---|---|---|---|

@@ -151,7 +151,7 @@ impl Tangential for () {
 
 /// Mindlin's no-slip stiffness with Coulomb's limit.
 ///
-/// $$ \dot T = -k_t \dot s, \quad k_t = 8 G^* a, \quad \frac{1}{G^*} = \sum_i \frac{2 - \nu_i}{G_i}, \quad |T| \le \mu F $$
+/// $$ \dot T = -k_t \dot s, \quad k_t = 8 G^\ast a, \quad \frac{1}{G^\ast} = \sum_i \frac{2 - \nu_i}{G_i}, \quad |T| \le \mu F $$
 ///
 /// | symbol | unit | meaning |
 /// |---|---|---|
@@ -164,7 +164,7 @@ impl Tangential for () {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mindlin {
     friction: f64,
-    /// $8 G^*$ of two grains and of a grain on a surface, Pa.
+    /// $8 G^\ast$ of two grains and of a grain on a surface, Pa.
     stiffness: [f64; 2],
     /// Part of that stiffness in use.
     factor: f64,
@@ -202,7 +202,7 @@ impl Mindlin {
     }
 }
 
-/// $8 G^*$ (Pa) of two sides, rigid if `None`; 0 if both are.
+/// $8 G^\ast$ (Pa) of two sides, rigid if `None`; 0 if both are.
 fn shear_stiffness(sides: [Option<&Material>; 2]) -> f64 {
     let compliance: f64 = sides
         .into_iter()

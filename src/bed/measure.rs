@@ -84,7 +84,7 @@ pub struct Packing {
 impl<C: ContactLaw> Bed<C> {
     /// Energies at the time of the positions; forces must be up to date ([`Bed::evaluate`]).
     ///
-    /// Kinetic energies are $\tfrac12 m \, v_{n-1/2} \cdot v_{n+1/2}$, the form in which the integrator's work adds up.
+    /// Kinetic energies are $\tfrac12 m\ v_{n-1/2} \cdot v_{n+1/2}$, the form in which the integrator's work adds up.
     #[must_use]
     pub fn energies(&self) -> Energies {
         let mut energies = Energies {

@@ -32,7 +32,7 @@ pub struct Servo {
 impl Servo {
     /// Velocity (m/s) against the force `load` (N) of the grains on the body.
     ///
-    /// $$ v = v_0 \, \mathrm{clamp}(1 - F/F_0, -1, 1) $$
+    /// $$ v = v_0\ \mathrm{clamp}(1 - F/F_0, -1, 1) $$
     #[must_use]
     pub fn velocity(&self, load: Vector) -> Vector {
         let reaction = -load.dot(self.direction);

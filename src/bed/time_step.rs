@@ -31,8 +31,8 @@ pub fn rayleigh_time(material: &Material, radius: f64) -> f64 {
 
 /// Duration (s) of the elastic impact of two equal grains of `radius` (m) at the relative `speed` (m/s).
 ///
-/// $$ t_c = 2.868 \left( \frac{m^{*2}}{R^* E^{*2} v} \right)^{1/5}, \quad m^* = \tfrac{m}{2}, \; R^* = \tfrac{R}{2}, \;
-/// E^* = \frac{E}{2 (1 - \nu^2)} $$
+/// $$ t_c = 2.868 \left( \frac{m^{\ast 2}}{R^\ast E^{\ast 2} v} \right)^{1/5}, \quad m^\ast = \tfrac{m}{2},\quad R^\ast = \tfrac{R}{2},\quad
+/// E^\ast = \frac{E}{2 (1 - \nu^2)} $$
 ///
 /// Source: Johnson 1985, section 11.4. A contact that yields is softer while it loads, and lasts longer.
 ///

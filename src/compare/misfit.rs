@@ -6,7 +6,7 @@ use crate::curve::{Impact, Sample};
 /// Root-mean-square force error over F*, a mean over the displacement (not over samples, whose spacing is the
 /// output's affair):
 ///
-/// $$ \frac{1}{F^*} \sqrt{\frac{\int (F_{law}(\delta) - F)^2 \, |d\delta|}{\int |d\delta|}} $$
+/// $$ \frac{1}{F^\ast} \sqrt{\frac{\int (F_{law}(\delta) - F)^2\ |d\delta|}{\int |d\delta|}} $$
 ///
 /// Loading: first contact to the largest displacement, the law on its loading curve with its inertia, if it has any, at
 /// the simulated rate. Unloading: from there to loss

@@ -24,7 +24,7 @@ pub struct YieldUnits {
 
 /// Elastic-plastic normal law of one body on a rigid plane, with a loading curve `L`:
 ///
-/// $$ \varphi = \varphi_y\, f(x/x_y) \text{ in loading}, \quad
+/// $$ \varphi = \varphi_y\ f(x/x_y) \text{ in loading}, \quad
 ///    \varphi = \varphi_m \left(\frac{x - x_r}{x_m - x_r}\right)^n \text{ below the largest flattening } x_m $$
 ///
 /// with $f$ of [`Loading`] and $x_r(x_m), n(x_m)$ of [`Unloading`]. Reloading retraces the branch to $x_m$ and goes

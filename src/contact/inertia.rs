@@ -4,7 +4,7 @@ use super::admissible::Inadmissible;
 
 /// Inertia term of a law: an added mass $m_a$ that comes to rest on the wall as the contact grows.
 ///
-/// $$ F_i = \frac{dm_a}{d\delta}\,\dot\delta^2 = \kappa \rho\, \dot\delta^2 \sqrt{R^3 (\delta - \delta_1)}, \qquad
+/// $$ F_i = \frac{dm_a}{d\delta}\ \dot\delta^2 = \kappa \rho\ \dot\delta^2 \sqrt{R^3 (\delta - \delta_1)}, \qquad
 ///    m_a = \tfrac23 \kappa \rho R^3 \left(\frac{\delta - \delta_1}{R}\right)^{3/2} $$
 ///
 /// | symbol | field | unit | meaning |
@@ -15,7 +15,7 @@ use super::admissible::Inadmissible;
 /// | $\dot\delta$ | | m/s | rate of approach |
 ///
 /// A contact of radius $a$ with $a^2 = 2R\delta$ (full plasticity) that holds up the mass $k\rho a^3$ gives
-/// $\kappa = 3\sqrt2\,k$; a flat disc in an ideal fluid has $k = 4/3$ on one side (Lamb 1932, Hydrodynamics, art. 102),
+/// $\kappa = 3\sqrt2\ k$; a flat disc in an ideal fluid has $k = 4/3$ on one side (Lamb 1932, Hydrodynamics, art. 102),
 /// hence $\kappa = 5.7$.
 ///
 /// The term acts on first loading alone ($\dot\delta > 0$ and $\delta$ the largest so far) and opposes the motion, so it

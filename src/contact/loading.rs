@@ -22,10 +22,10 @@ pub trait Loading: Clone + Send + Sync + std::fmt::Debug + 'static {
         (self.force(w), self.slope(w))
     }
 
-    /// Work $\int_0^w f\,dw$.
+    /// Work $\int_0^w f\ dw$.
     fn work(&self, w: f64) -> f64;
 
-    /// Weighted work $\int_0^w f\,g\,dw$ for a `weight` g that is 1 up to the departure and smooth past it.
+    /// Weighted work $\int_0^w f\ g\ dw$ for a `weight` g that is 1 up to the departure and smooth past it.
     fn weighted_work(&self, w: f64, weight: impl Fn(f64) -> f64) -> f64;
 
     /// Upper bounds of the exponent $d\ln f/d\ln w$ past the departure: `(w, bound)` means from `w` to the next
@@ -51,7 +51,7 @@ pub fn hertz(w: f64) -> f64 {
 /// | $b$ | `breadth` | 1 | breadth of the transition on the logarithmic axis |
 /// | $q$ | `softening` | 1 | how far the exponent falls in the end |
 ///
-/// With $v = (L/b)^2$ the exponent is $d\ln f/d\ln w = \tfrac32 - q\,v(3+v)/(1+v)^2$. The fraction lies in
+/// With $v = (L/b)^2$ the exponent is $d\ln f/d\ln w = \tfrac32 - q\ v(3+v)/(1+v)^2$. The fraction lies in
 /// $[0, 9/8]$ and tends to 1, so for $q < 4/3$ the curve increases, is never steeper than Hertz's
 /// on logarithmic axes, and tends to the power $\tfrac32 - q$. It leaves Hertz's curve smoothly: $f$, $f'$ and
 /// $f''$ are continuous at $w_1$.

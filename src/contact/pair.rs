@@ -8,7 +8,7 @@
 //! The surface they share is curved, so that neither is pressed by a plane; what flattens a side is its curvature
 //! against that surface. With the surface where Hertz has it, side $i$ is pressed like a sphere on a plane whose radius is
 //!
-//! $$ R_i' = R_e \left(1 + \frac{E_i^*}{E_j^*}\right), \qquad \frac{1}{R_e} = \frac{1}{R_1} + \frac{1}{R_2}, $$
+//! $$ R_i' = R_e \left(1 + \frac{E_i^\ast}{E_j^\ast}\right), \qquad \frac{1}{R_e} = \frac{1}{R_1} + \frac{1}{R_2}, $$
 //!
 //! and the pair is Hertz's for any radii and moduli (Johnson 1985, section 4.2: $a^2 = R_e \delta = R_i' \delta_i$). Equal
 //! spheres have $R_i' = R$, a rigid partner gives $R_i' = R_e$. With each side's own radius instead, a sphere on a large
@@ -89,7 +89,7 @@ impl<L: NormalLaw> Press for Flat<L> {
 
 /// Two grains of one material and one radius: each side takes half the overlap, so one history serves both.
 ///
-/// $$ F(\delta) = R^2 \varphi\!\left(\frac{\delta}{2R}\right), \qquad \frac{dF}{d\delta} = \frac{R}{2} \varphi' $$
+/// $$ F(\delta) = R^2 \varphi\left(\frac{\delta}{2R}\right), \qquad \frac{dF}{d\delta} = \frac{R}{2} \varphi' $$
 ///
 /// ```
 /// use impactlaw::contact::pair::{Flat, Press, Twins};

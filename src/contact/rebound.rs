@@ -1,11 +1,11 @@
 //! Rebound of a body from a rigid plane: the 1-D impact $m \ddot\delta = -F$ of any normal law.
 //!
 //! A rate-independent law does a work that depends on the path alone, so nothing is stepped in time. With $x = \delta/R$,
-//! $W = \int \varphi \, dx$ and $E_0 = \tfrac12 m V^2 / R^3$ the turning point solves $W(x_m) = E_0$. Seen from the
+//! $W = \int \varphi\ dx$ and $E_0 = \tfrac12 m V^2 / R^3$ the turning point solves $W(x_m) = E_0$. Seen from the
 //! turning point, a branch of length L is run through by
 //!
 //! $$ x = x_m - L \sin^2\theta, \quad \frac{dE}{d\theta} = 2 L \varphi \sin\theta \cos\theta, \quad
-//!    \frac{dt}{d\theta} = \sqrt{\frac{m}{2R}} \, \frac{2 L \sin\theta \cos\theta}{\sqrt{E}}, $$
+//!    \frac{dt}{d\theta} = \sqrt{\frac{m}{2R}}\ \frac{2 L \sin\theta \cos\theta}{\sqrt{E}}, $$
 //!
 //! E being the kinetic energy over $R^3$. The angle takes away the square-root singularity of the time at the
 //! turning point and the fractional power of Hertz at the end of contact; panels are halved around corners and

@@ -80,7 +80,7 @@ impl Piece {
         c1 + t * (2.0 * c2 + t * 3.0 * c3)
     }
 
-    /// Work from $w = 0$: $\int f\,dw = \int f\,2s\,ds$.
+    /// Work from $w = 0$: $\int f\ dw = \int f\ 2s\ ds$.
     fn work(&self, s: f64) -> f64 {
         let t = s - self.start;
         let [c0, c1, c2, c3] = self.coefficients;
@@ -169,7 +169,7 @@ impl SplineLoading {
     }
 }
 
-/// $f = f_k + f'_k (w - w_k)$ as a piece in $s$: $w - w_k = 2 s_k t + t^2$.
+/// $f = f_k + f_k' (w - w_k)$ as a piece in $s$: $w - w_k = 2 s_k t + t^2$.
 fn straight_line(knot: &Knot, work: f64) -> Piece {
     let s = knot.flattening.sqrt();
     Piece {

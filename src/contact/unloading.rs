@@ -19,8 +19,8 @@ use super::admissible::Inadmissible;
 ///
 /// At $w_m = w_1$ the branch is Hertz's ($\rho = 0$, $n = 3/2$). The form of $\rho$ is that of Jackson, Green and
 /// Marghitu 2010 without their factor 1.02, which would leave a residual in elastic contact. The form of $n$ is seen
-/// on simulated impacts: $n = F^*(\delta^* - \delta_r)/(e^2 W_i) - 1$ lies on straight lines over $\delta^*/R$ with slopes
-/// 8 ($E/Y = 80$, $\delta^*/R$ 0.016 to 0.07) and 7.3 ($E/Y = 613$, 0.02 to 0.125) that start a little below 3/2.
+/// on simulated impacts: $n = F^\ast(\delta^\ast - \delta_r)/(e^2 W_i) - 1$ lies on straight lines over $\delta^\ast/R$ with slopes
+/// 8 ($E/Y = 80$, $\delta^\ast/R$ 0.016 to 0.07) and 7.3 ($E/Y = 613$, 0.02 to 0.125) that start a little below 3/2.
 ///
 /// Two branches never cross, a later one lying below an earlier one, if the initial exponent
 /// $N = n/(1-\rho)$ of the branch does not fall as $w_m$ grows and is not less than the exponent of the loading

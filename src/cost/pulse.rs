@@ -62,8 +62,8 @@ impl Pulse {
 
     /// Impact of an elastic sphere that follows Hertz throughout (Johnson 1985, section 11.4).
     ///
-    /// $$ \delta^* = \left(\frac{15 m V^2}{16 \sqrt R E^*}\right)^{2/5}, \quad F^* = \tfrac43 E^* \sqrt R\, \delta^{*3/2},
-    ///    \quad t = \frac{\delta^*}{V} \int \frac{d(\delta/\delta^*)}{\sqrt{1 - (\delta/\delta^*)^{5/2}}}, \quad e = 1 $$
+    /// $$ \delta^\ast = \left(\frac{15 m V^2}{16 \sqrt R E^\ast}\right)^{2/5}, \quad F^\ast = \tfrac43 E^\ast \sqrt R\ \delta^{\ast 3/2},
+    ///    \quad t = \frac{\delta^\ast}{V} \int \frac{d(\delta/\delta^\ast)}{\sqrt{1 - (\delta/\delta^\ast)^{5/2}}}, \quad e = 1 $$
     #[must_use]
     pub fn hertz(case: &Case, velocity: f64) -> Self {
         let material = &case.material;
@@ -176,8 +176,8 @@ impl Pulse {
 
 /// Time and displacement of an elastic impact up to its turning point.
 ///
-/// With $(\delta/\delta^*)^{5/2} = \sin^2\varphi$ and $\varphi = s^{5/4}$ the integral loses both its singularities:
-/// $t = (\delta^*/V) \int_0^s (\varphi / \sin\varphi)^{1/5}\, ds$; midpoint rule.
+/// With $(\delta/\delta^\ast)^{5/2} = \sin^2\varphi$ and $\varphi = s^{5/4}$ the integral loses both its singularities:
+/// $t = (\delta^\ast/V) \int_0^s (\varphi / \sin\varphi)^{1/5}\ ds$; midpoint rule.
 fn hertz_half(largest: f64, velocity: f64) -> Vec<(f64, f64)> {
     const STEPS: usize = 400;
     let step = std::f64::consts::FRAC_PI_2.powf(0.8) / STEPS as f64;

@@ -23,7 +23,7 @@ pub struct Pulse {
 
 /// Inertia of a law in yield units: $F_i/F_y = \beta E \sqrt{w - w_1}$ at kinetic energy E of a sphere, with
 ///
-/// $$ \beta = \frac{3\kappa}{2\pi}\, x_y^{3/2}, $$
+/// $$ \beta = \frac{3\kappa}{2\pi}\ x_y^{3/2}, $$
 ///
 /// so that in loading $dE/dw = -f - \mu' E$, $\mu = \tfrac23\beta(w - w_1)^{3/2}$, and $d(e^\mu E)/dw = -e^\mu f$.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -72,9 +72,9 @@ const PANELS: usize = 2;
 impl Pulse {
     /// Impact of `law` with incident `energy` ($\tfrac12 m V^2$ over $F_y\delta_y$); `guess` of the largest flattening.
     ///
-    /// The turning point solves $\int_0^{w_m} e^\mu f\,dw = E$ ([`Added`]). The branch gives back
+    /// The turning point solves $\int_0^{w_m} e^\mu f\ dw = E$ ([`Added`]). The branch gives back
     /// $E_r = f_m (w_m - w_r)/(n + 1)$, so $e^2 = E_r/E$, in the time
-    /// $\frac{w_m - w_r}{v_r} \sqrt\pi\,\Gamma(1 + 1/p)/\Gamma(1/2 + 1/p)$ with $p = n + 1$ and $v_r = \sqrt{2E_r}$.
+    /// $\frac{w_m - w_r}{v_r} \sqrt\pi\ \Gamma(1 + 1/p)/\Gamma(1/2 + 1/p)$ with $p = n + 1$ and $v_r = \sqrt{2E_r}$.
     /// `None` if no turning point is found.
     pub fn of<L: Loading>(law: &Elastoplastic<L>, energy: f64, guess: f64) -> Option<Self> {
         let loading = law.loading();

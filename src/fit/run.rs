@@ -39,7 +39,7 @@ impl Scale {
         })
     }
 
-    /// Scale of a sphere that stays elastic: R, $E^* R^2$ and the time that belongs to them.
+    /// Scale of a sphere that stays elastic: R, $E^\ast R^2$ and the time that belongs to them.
     #[must_use]
     pub fn elastic(material: &Material, radius: f64) -> Self {
         let mass = material.sphere_mass(radius);

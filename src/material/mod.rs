@@ -42,7 +42,7 @@ pub struct YieldPoint {
 }
 
 impl Material {
-    /// Contact modulus on a rigid flat, $E^* = E/(1-\nu^2)$, Pa.
+    /// Contact modulus on a rigid flat, $E^\ast = E/(1-\nu^2)$, Pa.
     #[must_use]
     pub fn contact_modulus(&self) -> f64 {
         self.young_modulus / (1.0 - self.poisson_ratio * self.poisson_ratio)
@@ -56,7 +56,7 @@ impl Material {
 
     /// Yield point of a sphere of `radius` for a peak pressure $p_0 = c Y$ at first yield.
     ///
-    /// $$ \delta_y = \left(\frac{\pi p_0}{2 E^*}\right)^2 R, \quad F_y = \frac{\pi^3 p_0^3 R^2}{6 E^{*2}}, \quad
+    /// $$ \delta_y = \left(\frac{\pi p_0}{2 E^\ast}\right)^2 R, \quad F_y = \frac{\pi^3 p_0^3 R^2}{6 E^{\ast 2}}, \quad
     ///    \tfrac12 m V_y^2 = \tfrac25 F_y \delta_y $$
     ///
     /// `None` for an elastic body. Source: Johnson 1985, section 6.3; thesis (4-10), (4-11).

@@ -2,7 +2,7 @@
 //!
 //! Elastic energy per reference volume, with $\bar b_e = J^{-2/3} b_e$:
 //!
-//! $$ W = \tfrac{\mu}{2} (\mathrm{tr}\, \bar b_e - 3) + U(J), \qquad
+//! $$ W = \tfrac{\mu}{2} (\mathrm{tr}\ \bar b_e - 3) + U(J), \qquad
 //!    U = \tfrac{\kappa}{2} \left( \tfrac12 (J^2 - 1) - \ln J \right) $$
 //!
 //! Source: Simo and Hughes 1998, section 9.2 and box 9.1; unlike theirs, the returned $\bar b_e$ has determinant one
@@ -58,7 +58,7 @@ impl Moduli {
 pub struct Response<T> {
     /// Deviatoric Kirchhoff stress.
     pub deviator: T,
-    /// Mean of the isochoric elastic left Cauchy-Green tensor, $\mathrm{tr}\,\bar b_e / 3$.
+    /// Mean of the isochoric elastic left Cauchy-Green tensor, $\mathrm{tr}\ \bar b_e / 3$.
     pub mean: Lanes,
     /// Plastic work of the step per reference volume.
     pub dissipation: Lanes,

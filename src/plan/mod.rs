@@ -90,8 +90,8 @@ const PLASTIC_PRESSURE_RATIO: f64 = 2.8;
 
 /// Size of an impact from the elastic (Hertz) and the fully plastic limit.
 ///
-/// $$ \delta_e = \left(\tfrac{15 m V^2}{16 E^* \sqrt{R}}\right)^{2/5}, \quad
-///    \delta_p = V \sqrt{\tfrac{m}{2 \pi R\, 2.8 Y}}, \quad \delta = (\delta_e^3 + \delta_p^3)^{1/3} $$
+/// $$ \delta_e = \left(\tfrac{15 m V^2}{16 E^\ast \sqrt{R}}\right)^{2/5}, \quad
+///    \delta_p = V \sqrt{\tfrac{m}{2 \pi R\ 2.8 Y}}, \quad \delta = (\delta_e^3 + \delta_p^3)^{1/3} $$
 ///
 /// An estimate for laying a grid, within some 20 % of the simulated displacement; nothing else depends on it.
 #[must_use]
@@ -318,7 +318,7 @@ fn effects(case: &Case, velocity: f64) -> (Vec<Effect>, bool) {
 
 /// Period of the fundamental (oblate-prolate, l = 2) vibration of a sphere, R/c0.
 ///
-/// $T = 2\pi R / (2.64\, c_s)$; the factor varies by 2 % over nu = 0..0.5 (Lamb 1882).
+/// $T = 2\pi R / (2.64\ c_s)$; the factor varies by 2 % over nu = 0..0.5 (Lamb 1882).
 #[must_use]
 pub fn fundamental_period(poisson_ratio: f64) -> f64 {
     2.0 * PI / 2.64 * (2.0 * (1.0 + poisson_ratio)).sqrt()

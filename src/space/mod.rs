@@ -46,7 +46,7 @@ pub trait Space: Copy + Send + Sync + 'static {
     /// Component of a vector along which an oblique impact slides; `None` where only normal impacts exist.
     const SLIDING: Option<usize>;
 
-    /// Moment $(x \times v)_y$ about the axis an oblique impact turns about; `x` from any fixed point.
+    /// Moment about the axis an oblique impact turns about, y of $x \times v$; `x` from any fixed point.
     fn moment(x: &Self::Vector, v: &Self::Vector) -> f64;
     /// Velocity at `x` of a turn about that axis at unit rate: positive rolls in the direction of sliding.
     fn turned(x: &Self::Vector) -> Self::Vector;

@@ -5,7 +5,7 @@ use crate::material::Material;
 
 /// Elastic contact of a sphere with a rigid frictionless plane.
 ///
-/// $$ F = \tfrac43 E^* \sqrt{R} \, \delta^{3/2}, \qquad a^2 = R \delta $$
+/// $$ F = \tfrac43 E^\ast \sqrt{R}\ \delta^{3/2}, \qquad a^2 = R \delta $$
 ///
 /// | symbol | unit | meaning |
 /// |---|---|---|
@@ -24,7 +24,7 @@ use crate::material::Material;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hertz {
-    /// $\tfrac43 E^*$, Pa.
+    /// $\tfrac43 E^\ast$, Pa.
     prefactor: f64,
 }
 
@@ -43,7 +43,7 @@ impl Hertz {
         Self::new(material.contact_modulus())
     }
 
-    /// $\tfrac43 E^*$, Pa.
+    /// $\tfrac43 E^\ast$, Pa.
     #[must_use]
     pub fn prefactor(&self) -> f64 {
         self.prefactor

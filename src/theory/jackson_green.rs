@@ -19,8 +19,8 @@ const FASTEST: f64 = 1000.0;
 
 /// Elastic-perfectly plastic sphere flattened by a rigid plane, fitted to finite elements.
 ///
-/// With $C = 1.295\,e^{0.736\nu}$, $w = \delta/\delta_c$, $\delta_c = (\pi C Y/2E^*)^2 R$, $P_c$ the force of Hertz
-/// at $\delta_c$ and $B = 0.14\,e^{23 Y/E^*}$:
+/// With $C = 1.295\ e^{0.736\nu}$, $w = \delta/\delta_c$, $\delta_c = (\pi C Y/2E^\ast)^2 R$, $P_c$ the force of Hertz
+/// at $\delta_c$ and $B = 0.14\ e^{23 Y/E^\ast}$:
 ///
 /// $$ w \le 1.9: \quad F = P_c w^{3/2}, \quad a^2 = R\delta $$
 /// $$ w > 1.9: \quad \frac{F}{P_c} = e^{-\frac14 w^{5/12}} w^{3/2} + \frac{4 H_G}{C Y}\left[1 - e^{-\frac1{25} w^{5/9}}\right] w, \quad
@@ -30,7 +30,7 @@ const FASTEST: f64 = 1000.0;
 ///    \frac{\delta_r}{\delta_m} = 1.02\left[1 - \left(\frac{w_m + 5.9}{6.9}\right)^{-0.54}\right] $$
 ///
 /// Source: Jackson and Green 2005, J. Tribol. 127, 343; unloading Jackson, Green and Marghitu 2010, Nonlinear Dyn. 60, 217
-/// (constants seen in independent codes). Basis: $\nu = 0.32$, $Y/E^*$ up to about 0.0073, a/R up to about 0.41
+/// (constants seen in independent codes). Basis: $\nu = 0.32$, $Y/E^\ast$ up to about 0.0073, a/R up to about 0.41
 /// (unverified). Along unloading the contact area is scaled linearly from that at the peak, which the sources leave
 /// open.
 ///
@@ -144,7 +144,7 @@ impl Envelope for JacksonGreen {
 /// $\delta_c$:
 ///
 /// $$ e = 1 \ (v \le 1), \quad e = 1 - 0.1 \ln v \left(\frac{v-1}{59}\right)^{0.156} \ (v \le 60), \quad
-///    e = 1 - 0.1 \ln 60 - 0.11 \ln\frac{v}{60} (v - 60)^{2.36\,Y/E^*} \ (v < 1000) $$
+///    e = 1 - 0.1 \ln 60 - 0.11 \ln\frac{v}{60} (v - 60)^{2.36\ Y/E^\ast} \ (v < 1000) $$
 ///
 /// Source: Jackson, Green and Marghitu 2010; within 2.2 % of the integrated law. `None` for an elastic body and
 /// from $v = 1000$ on, where the authors stop.

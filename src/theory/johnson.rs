@@ -12,7 +12,7 @@ const PLASTIC_PRESSURE_RATIO: f64 = 3.0;
 ///
 /// $$ F = \pi a^2 p_d = 2 \pi R p_d \delta, \qquad a^2 = 2 R \delta, \qquad p_d = 3 Y $$
 /// $$ \text{unloading:}\quad F = F_m \left(\frac{\delta - \delta_r}{\delta_e}\right)^{3/2}, \quad
-///    \delta_e = \frac{3 F_m}{4 a_m E^*}, \quad \delta_r = \delta_m - \delta_e $$
+///    \delta_e = \frac{3 F_m}{4 a_m E^\ast}, \quad \delta_r = \delta_m - \delta_e $$
 ///
 /// | symbol | unit | meaning |
 /// |---|---|---|
@@ -21,9 +21,9 @@ const PLASTIC_PRESSURE_RATIO: f64 = 3.0;
 ///
 /// Source: Johnson 1985, Contact Mechanics, sections 6.3 and 11.4-11.5. The book gives no force between first yield
 /// and full plasticity. **Bridge of this implementation, not of the book:** the sphere stays Hertzian, with
-/// reversible unloading, up to the flattening where Hertz meets the plastic line, $x_c = (3\pi p_d/2E^*)^2$, that
+/// reversible unloading, up to the flattening where Hertz meets the plastic line, $x_c = (3\pi p_d/2E^\ast)^2$, that
 /// is 32 times the flattening of first yield. The force is continuous there; the unloading branch is not: e is 1 up
-/// to about $75\,V_y$ and falls to 0.84 at once. Slower impacts are outside this theory.
+/// to about $75\ V_y$ and falls to 0.84 at once. Slower impacts are outside this theory.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Johnson {
     elastic: Hertz,
@@ -87,8 +87,8 @@ impl Envelope for Johnson {
 
 /// Coefficient of restitution at speed `velocity` (m/s) as the book prints it:
 ///
-/// $$ e = 3.8 \left(\frac{Y}{E^*}\right)^{1/2} \left(\frac{\tfrac12 m V^2}{Y R^3}\right)^{-1/8}
-///      = 3.465 \left(\frac{\rho V^2}{Y}\right)^{-1/8} \left(\frac{Y}{E^*}\right)^{1/2} $$
+/// $$ e = 3.8 \left(\frac{Y}{E^\ast}\right)^{1/2} \left(\frac{\tfrac12 m V^2}{Y R^3}\right)^{-1/8}
+///      = 3.465 \left(\frac{\rho V^2}{Y}\right)^{-1/8} \left(\frac{Y}{E^\ast}\right)^{1/2} $$
 ///
 /// Source: Johnson 1985, section 11.5. 3.8 is rounded up: the formulas above give 3.743, so this is 1.5 % higher
 /// than the integrated law. `None` for an elastic body and below the speed where the formula exceeds 1 (about 28

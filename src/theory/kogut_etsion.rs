@@ -30,18 +30,18 @@ const ROWS: [Row; 2] = [
 
 /// Elastic-perfectly plastic sphere flattened by a rigid plane, fitted to finite elements.
 ///
-/// With $w = \delta/\delta_c$, $\delta_c = (\pi K H/2E^*)^2 R$, $K = 0.454 + 0.41\nu$, $H = 2.8\,Y$, $P_c$ the
+/// With $w = \delta/\delta_c$, $\delta_c = (\pi K H/2E^\ast)^2 R$, $K = 0.454 + 0.41\nu$, $H = 2.8\ Y$, $P_c$ the
 /// force of Hertz at $\delta_c$ and $A_c = \pi R \delta_c$:
 ///
 /// | $w$ | $F/P_c$ | $A/A_c$ |
 /// |---|---|---|
 /// | up to 1 | $w^{1.5}$ | $w$ |
-/// | up to 6 | $1.03\,w^{1.425}$ | $0.93\,w^{1.136}$ |
-/// | up to 110 | $1.40\,w^{1.263}$ | $0.94\,w^{1.146}$ |
-/// | above | $(3/K)\,w$, that is $F = 2\pi R H \delta$ | $2w$ |
+/// | up to 6 | $1.03\ w^{1.425}$ | $0.93\ w^{1.136}$ |
+/// | up to 110 | $1.40\ w^{1.263}$ | $0.94\ w^{1.146}$ |
+/// | above | $(3/K)\ w$, that is $F = 2\pi R H \delta$ | $2w$ |
 ///
 /// $$ \text{unloading:}\quad F = F_m \left(\frac{\delta - \delta_r}{\delta_m - \delta_r}\right)^{n}, \quad
-///    \frac{\delta_r}{\delta_m} = (1 - w_m^{-0.28})(1 - w_m^{-0.69}), \quad n = 1.5\, w_m^{-0.0331}, \quad
+///    \frac{\delta_r}{\delta_m} = (1 - w_m^{-0.28})(1 - w_m^{-0.69}), \quad n = 1.5\ w_m^{-0.0331}, \quad
 ///    A \propto (\delta - \delta_r)^{w_m^{-0.12}} $$
 ///
 /// Source: loading Kogut and Etsion 2002, J. Appl. Mech. 69, 657 (constants seen in independent codes); unloading

@@ -9,13 +9,13 @@ const PLASTICITY_DEPTH: f64 = 0.05;
 
 /// Adhesive elasto-plastic springs of Luding, here without the adhesive branch ($k_c = 0$).
 ///
-/// $$ F = k_1 \delta \ (\delta \le \delta^*), \quad F = \hat k_2 (\delta - \delta^*_r) \ (\delta > \delta^*), \quad
-///    \delta^* = \frac{\hat k_2}{\hat k_2 - k_1} \phi_f \frac{2 R_1 R_2}{R_1 + R_2}, \quad
-///    \delta^*_r = \phi_f \frac{2 R_1 R_2}{R_1 + R_2} $$
+/// $$ F = k_1 \delta \ (\delta \le \delta^\ast), \quad F = \hat k_2 (\delta - \delta^\ast_r) \ (\delta > \delta^\ast), \quad
+///    \delta^\ast = \frac{\hat k_2}{\hat k_2 - k_1} \phi_f \frac{2 R_1 R_2}{R_1 + R_2}, \quad
+///    \delta^\ast_r = \phi_f \frac{2 R_1 R_2}{R_1 + R_2} $$
 /// $$ \text{unloading:}\quad F = k_2 (\delta - \delta_r), \quad \delta_r = \delta_m\left(1 - \frac{k_1}{k_2}\right), \quad
-///    k_2 = k_1 + (\hat k_2 - k_1) \frac{\delta_m}{\delta^*} $$
+///    k_2 = k_1 + (\hat k_2 - k_1) \frac{\delta_m}{\delta^\ast} $$
 ///
-/// Source: Luding 2008, Granular Matter 10, 235 (as documented by LAMMPS); $\phi_f = 0.05$. Past $\delta^*$ the
+/// Source: Luding 2008, Granular Matter 10, 235 (as documented by LAMMPS); $\phi_f = 0.05$. Past $\delta^\ast$ the
 /// contact is elastic on the limit branch. One body here is half of a pair of equal spheres, so its limit residual
 /// is $\phi_f R/2$: in series two such bodies are the published pair law; a wall is then a mirror (codes differ
 /// there). Stiffnesses from a material: [`Springs`], with $\hat k_2$ the reference $k_2$ (unverified choice: the
@@ -62,7 +62,7 @@ impl Luding {
 
     /// Coefficient of restitution at speed `velocity` (m/s), from the energies of the two springs:
     ///
-    /// $$ e = \sqrt{k_1/k_2(\delta_m)}, \quad \delta_m = V\sqrt{m/k_1} \le \delta^* $$
+    /// $$ e = \sqrt{k_1/k_2(\delta_m)}, \quad \delta_m = V\sqrt{m/k_1} \le \delta^\ast $$
     ///
     /// `None` past the limit branch. Derived here; the paper gives the springs only.
     #[must_use]

@@ -3,7 +3,7 @@
 use super::johnson;
 use crate::material::Material;
 
-/// Loading stiffness over $R^* Y$: $k_1 = 5 R^* Y$.
+/// Loading stiffness over $R^\ast Y$: $k_1 = 5 R^\ast Y$.
 const LOADING_RATIO: f64 = 5.0;
 /// Damage number $\rho V^2/Y$ at which the springs are calibrated: the middle of Johnson's range of moderate
 /// plasticity, 1e-3 to 1e-1.
@@ -11,8 +11,8 @@ const REFERENCE_DAMAGE_NUMBER: f64 = 1e-2;
 
 /// Stiffnesses of a body over its radius (Pa), so that the springs stay geometrically similar.
 ///
-/// - $k_1 = 5 R^* Y$: the practice of discrete-element codes (Walton 2006, as documented for the hysteretic spring
-///   of EDEM). It holds for two equal spheres ($R^* = R/2$, two springs in series) and for a sphere on a wall ($R^* = R$)
+/// - $k_1 = 5 R^\ast Y$: the practice of discrete-element codes (Walton 2006, as documented for the hysteretic spring
+///   of EDEM). It holds for two equal spheres ($R^\ast = R/2$, two springs in series) and for a sphere on a wall ($R^\ast = R$)
 ///   alike, with $k_1/R = 5Y$ a body.
 /// - $k_2 = k_1/e^2$ at one reference speed. Users measure e; without a measurement it is [`johnson::restitution`]
 ///   at $\rho V^2/Y = 0.01$, at most 1.

@@ -7,24 +7,24 @@ use std::f64::consts::PI;
 
 /// Elastic-perfectly plastic contact with the Hertz pressure truncated at $p_y$.
 ///
-/// $$ F = \tfrac43 E^* \sqrt{R}\,\delta^{3/2} \ (\delta \le \delta_y), \qquad
+/// $$ F = \tfrac43 E^\ast \sqrt{R}\ \delta^{3/2} \ (\delta \le \delta_y), \qquad
 ///    F = F_y + \pi p_y R (\delta - \delta_y), \qquad a^2 = R \delta $$
-/// $$ \text{unloading:}\quad F = \tfrac43 E^* \sqrt{R_p} (\delta - \delta_p)^{3/2}, \quad
-///    \frac{R_p}{R} = \frac{\tfrac43 E^* \sqrt{R}\,\delta_m^{3/2}}{F_m}, \quad \delta_p = \delta_m - \frac{R
+/// $$ \text{unloading:}\quad F = \tfrac43 E^\ast \sqrt{R_p} (\delta - \delta_p)^{3/2}, \quad
+///    \frac{R_p}{R} = \frac{\tfrac43 E^\ast \sqrt{R}\ \delta_m^{3/2}}{F_m}, \quad \delta_p = \delta_m - \frac{R
 ///   \delta_m}{R_p} $$
 ///
 /// | symbol | unit | meaning |
 /// |---|---|---|
 /// | $p_y$ | Pa | limiting contact pressure, the **peak** pressure of Hertz at yield |
-/// | $\delta_y, F_y$ | m, N | $\left(\pi p_y / 2E^*\right)^2 R$ and the force of Hertz there |
+/// | $\delta_y, F_y$ | m, N | $\left(\pi p_y / 2E^\ast\right)^2 R$ and the force of Hertz there |
 /// | $R_p$ | m | radius of the plastically flattened sphere |
 /// | $\delta_m, F_m$ | m, N | largest displacement and its force |
 ///
-/// The paper writes $R_p = \frac{4E^*}{3F_m}\left[\frac{2F_m + F_y}{2\pi p_y}\right]^{3/2}$; on its loading line
+/// The paper writes $R_p = \frac{4E^\ast}{3F_m}\left[\frac{2F_m + F_y}{2\pi p_y}\right]^{3/2}$; on its loading line
 /// the bracket is $R \delta_m$ (checked algebraically). Source: Thornton 1997, J. Appl. Mech. 64, 383; Thornton and
 /// Ning 1998, Powder Technol. 99, 154, without adhesion. Valid for a small contact. The plastic slope is half that
-/// of full plasticity, so one $p_y$ cannot fit both first yield ($1.6\,Y$) and the force of large flattening
-/// ($2.8\,Y$): both are offered.
+/// of full plasticity, so one $p_y$ cannot fit both first yield ($1.6\ Y$) and the force of large flattening
+/// ($2.8\ Y$): both are offered.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Thornton {
     elastic: Hertz,
@@ -86,7 +86,7 @@ impl Envelope for Thornton {
 /// $$ e = \sqrt{\tfrac{6\sqrt3}{5}} \left[1 - \tfrac16 r^2\right]^{1/2}
 ///    \left[\frac{r}{r + 2\sqrt{\tfrac65 - \tfrac15 r^2}}\right]^{1/4} $$
 ///
-/// Source: Thornton 1997. Exact for the law above; for fast impacts $e \to 1.185\, r^{1/4}$. `None` for an elastic
+/// Source: Thornton 1997. Exact for the law above; for fast impacts $e \to 1.185\ r^{1/4}$. `None` for an elastic
 /// body.
 ///
 /// ```

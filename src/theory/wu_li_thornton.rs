@@ -15,11 +15,11 @@ pub const REFERENCE: &str = "Wu, Li and Thornton 2003, Int. J. Impact Eng. 28, 9
 /// Coefficient of restitution of an elastic-perfectly plastic sphere on a rigid wall at speed `velocity` (m/s):
 ///
 /// $$ e = 2.08 \left(\frac{V}{V_y}\right)^{-1/4}, \qquad
-///    e = 0.62 \left(\frac{V/V_y}{E^*/Y}\right)^{-1/2} \ \text{ from } \ \frac{V}{V_y} =
-///   \left(\frac{0.62}{2.08}\right)^4 \left(\frac{E^*}{Y}\right)^2 \text{ on} $$
+///    e = 0.62 \left(\frac{V/V_y}{E^\ast/Y}\right)^{-1/2} \ \text{ from } \ \frac{V}{V_y} =
+///   \left(\frac{0.62}{2.08}\right)^4 \left(\frac{E^\ast}{Y}\right)^2 \text{ on} $$
 ///
-/// the speed where the two meet. $V_y$ with a peak pressure $1.6\,Y$. Source: Wu, Li and Thornton 2003; **2.08 and
-/// the pressure ratio are unverified** (their intersection, $0.0079 (E^*/Y)^2$, agrees with the transition $0.008 (E^*/Y)^2$
+/// the speed where the two meet. $V_y$ with a peak pressure $1.6\ Y$. Source: Wu, Li and Thornton 2003; **2.08 and
+/// the pressure ratio are unverified** (their intersection, $0.0079 (E^\ast/Y)^2$, agrees with the transition $0.008 (E^\ast/Y)^2$
 /// of the paper). `None` for an elastic body and where the formula exceeds 1.
 #[must_use]
 pub fn restitution(material: &Material, velocity: f64) -> Option<f64> {

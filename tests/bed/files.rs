@@ -1,11 +1,12 @@
 //! Files and measures of a bed: closed forms, sums that must agree, and files that other readers take.
 
+use crate::scene_run;
 use impactlaw::bed::contact_row::{ContactRow, Other};
 use impactlaw::bed::dump;
 use impactlaw::bed::fabric::{Fabric, FabricRow};
 use impactlaw::bed::grains::Grains;
 use impactlaw::bed::machine::Machine;
-use impactlaw::bed::run::{BedReport, Options, run_scene};
+use impactlaw::bed::run::BedReport;
 use impactlaw::bed::scene::Scene;
 use parry3d::math::Vector;
 use std::collections::BTreeMap;
@@ -57,16 +58,7 @@ dump = true
 "#;
 
 fn run() -> (BedReport, tempfile::TempDir) {
-    let folder = tempfile::tempdir().unwrap();
-    let scene = Scene::parse(SCENE, Path::new("files.toml")).unwrap();
-    let options = Options {
-        folder: folder.path(),
-        provenance: "test",
-        seed: None,
-        checkpoint: None,
-        progress: &|_, _| (),
-    };
-    (run_scene(&scene, None, &options).unwrap(), folder)
+    scene_run::run(&Scene::parse(SCENE, Path::new("files.toml")).unwrap())
 }
 
 /// Rows of a CSV file by column.

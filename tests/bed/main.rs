@@ -2,6 +2,8 @@
 
 mod adapter;
 mod bodies;
+#[path = "../support/browser.rs"]
+mod browser;
 mod collisions;
 mod files;
 mod many;
@@ -13,9 +15,12 @@ mod oblique_elastic;
 mod oblique_published;
 mod page;
 mod periodic;
+#[path = "../support/program.rs"]
+mod program;
 mod refusals;
 mod removal;
 mod restart;
 mod resume;
+mod scene_run;
 mod scenes;
 mod two_bodies;

@@ -1,5 +1,6 @@
 //! Many grains: the same bits for any number of threads, and whole scenes.
 
+use crate::scene_run::{quiet, run};
 use impactlaw::bed::damping::Viscous;
 use impactlaw::bed::friction::{Mindlin, RollingSpring, Slider};
 use impactlaw::bed::insertion::insert;
@@ -126,18 +127,6 @@ fn one_and_two_threads_give_the_same_bits() {
     assert!(one.contacts.same(&two.contacts) && one.surfaces.same(&two.surfaces));
     assert_eq!(one.machine.state(), two.machine.state());
     assert_eq!(one.losses(), two.losses());
-}
-
-fn run(scene: &Scene) -> (BedReport, tempfile::TempDir) {
-    let folder = tempfile::tempdir().unwrap();
-    let options = Options {
-        folder: folder.path(),
-        provenance: "test",
-        seed: None,
-        checkpoint: None,
-        progress: &|_, _| (),
-    };
-    (run_scene(scene, None, &options).unwrap(), folder)
 }
 
 #[test]
@@ -280,11 +269,8 @@ fn a_fitted_law_without_a_law_file_is_refused_before_the_first_step() {
     let scene = scene("\"hertz\"", "\"fitted\"").unwrap();
     let folder = tempfile::tempdir().unwrap();
     let options = Options {
-        folder: folder.path(),
-        provenance: "test",
-        seed: None,
-        checkpoint: None,
         progress: &|_, _| panic!("a step was made"),
+        ..quiet(folder.path())
     };
     let text = run_scene(&scene, None, &options).err().unwrap().to_string();
     assert!(text.contains("--law") && text.contains("fitted"), "{text}");

@@ -2,10 +2,10 @@
 //!
 //! Needs Chromium or Chrome; where there is none the test says so and proves nothing.
 
-use impactlaw::bed::run::{Options, run_scene};
+use crate::browser;
+use crate::scene_run::run;
 use impactlaw::bed::scene::Scene;
-use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::path::Path;
 
 const SCENE: &str = r#"
 laws = ["thornton"]
@@ -109,51 +109,17 @@ out.textContent = JSON.stringify(told);
 document.body.append(out);
 })();</script>";
 
-fn browser() -> Option<PathBuf> {
-    let folders: Vec<PathBuf> = std::env::split_paths(&std::env::var_os("PATH")?).collect();
-    let names = ["chromium", "chromium-browser", "google-chrome", "chrome"];
-    names
-        .iter()
-        .flat_map(|name| folders.iter().map(move |folder| folder.join(name)))
-        .find(|path| path.is_file())
-}
-
 /// The page as the visitor left it: what it told.
 fn visit(browser: &Path, page: &str) -> serde_json::Value {
     let folder = tempfile::tempdir().unwrap();
     let visited = page
         .replace("<head>", &format!("<head>{LISTEN}"))
         .replace("</body>", &format!("{VISIT}</body>"));
-    let path = folder.path().join("visited.html");
-    std::fs::write(&path, visited).unwrap();
-    let output = Command::new(browser)
-        .args(["--headless", "--no-sandbox", "--use-angle=swiftshader"])
-        .args([
-            "--enable-unsafe-swiftshader",
-            "--disable-background-networking",
-        ])
-        .args([
-            "--virtual-time-budget=200000",
-            "--window-size=640,480",
-            "--dump-dom",
-        ])
-        .arg(format!(
-            "--user-data-dir={}",
-            folder.path().join("profile").display()
-        ))
-        .arg(format!("file://{}", path.display()))
-        .output()
-        .unwrap();
-    let page = String::from_utf8_lossy(&output.stdout).into_owned();
+    let (page, said) = browser::open(browser, &visited, folder.path());
     let told = page
         .split_once("<pre id=\"told\">")
         .and_then(|(_, rest)| rest.split_once("</pre>"))
-        .unwrap_or_else(|| {
-            panic!(
-                "the page told nothing: {}",
-                String::from_utf8_lossy(&output.stderr)
-            )
-        });
+        .unwrap_or_else(|| panic!("the page told nothing: {said}"));
     let text = told
         .0
         .replace("&amp;", "&")
@@ -164,22 +130,13 @@ fn visit(browser: &Path, page: &str) -> serde_json::Value {
 
 #[test]
 fn the_page_draws_the_bed_and_follows_every_control() {
-    let folder = tempfile::tempdir().unwrap();
     let scene = Scene::parse(SCENE, Path::new("page.toml")).unwrap();
-    let options = Options {
-        folder: folder.path(),
-        provenance: "test",
-        seed: None,
-        checkpoint: None,
-        progress: &|_, _| (),
-    };
-    run_scene(&scene, None, &options).unwrap();
+    let (_, folder) = run(&scene);
     let page = std::fs::read_to_string(folder.path().join("bed/thornton/bed.html")).unwrap();
     for outside in ["http:", "https:", "src=", "@import"] {
         assert!(!page.contains(outside), "{outside} in the page");
     }
-    let Some(browser) = browser() else {
-        eprintln!("!! SKIPPED: no chromium or chrome in PATH, the page was not opened");
+    let Some(browser) = browser::find() else {
         return;
     };
     let told = visit(&browser, &page);

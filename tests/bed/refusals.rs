@@ -1,7 +1,6 @@
 //! Refusals: a bad scene ends with one error that names place and remedy, exit code 2, and writes nothing.
 
-use std::path::Path;
-use std::process::Command;
+use crate::program::{impactlaw, message};
 
 const SCENE: &str = r#"laws = ["hertz"]
 seed = 3
@@ -63,27 +62,13 @@ fn refused_beside(mesh: &[u8], replacements: &[(&str, &str)], says: &[&str]) {
     }
     std::fs::write(folder.path().join("scene.toml"), text).unwrap();
     std::fs::write(folder.path().join("mesh.stl"), mesh).unwrap();
-    let output = run(folder.path());
-    let error = String::from_utf8_lossy(&output.stderr).into_owned();
-    // the report wraps lines and draws a frame: look at the words
-    let words: Vec<&str> = error
-        .split(|c: char| c.is_whitespace() || "│╰╭─▶×".contains(c))
-        .filter(|w| !w.is_empty())
-        .collect();
-    let flat = words.join(" ");
+    let output = impactlaw(folder.path(), &["bed", "scene.toml"]);
+    let flat = message(&output);
     assert_eq!(output.status.code(), Some(2), "{flat}");
     for say in says {
         assert!(flat.contains(say), "{say:?} is not in: {flat}");
     }
     assert!(!folder.path().join("out").exists(), "something was written");
-}
-
-fn run(folder: &Path) -> std::process::Output {
-    Command::new(env!("CARGO_BIN_EXE_impactlaw"))
-        .args(["bed", "scene.toml"])
-        .current_dir(folder)
-        .output()
-        .unwrap()
 }
 
 fn refused(from: &str, to: &str, says: &[&str]) {
@@ -97,7 +82,7 @@ const MESH: &str = "mesh = \"mesh.stl\"\nscale = \"1 mm\"";
 fn the_scene_itself_runs() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("scene.toml"), SCENE).unwrap();
-    let output = run(folder.path());
+    let output = impactlaw(folder.path(), &["bed", "scene.toml"]);
     assert_eq!(output.status.code(), Some(0), "{output:?}");
     let summary =
         std::fs::read_to_string(folder.path().join("out/scene/bed/hertz/summary.json")).unwrap();

@@ -1,5 +1,6 @@
 //! Resumed beds: a scene stopped in its packing and under its laws ends with the same bytes as one that was not.
 
+use crate::scene_run::quiet;
 use impactlaw::bed::run::{Options, run_scene};
 use impactlaw::bed::scene::Scene;
 use std::collections::BTreeMap;
@@ -58,9 +59,6 @@ fn run(text: &str, folder: &Path, (name, stop): (&str, usize)) -> bool {
     let scene = Scene::parse(text, Path::new("resume.toml")).unwrap();
     let rows = AtomicUsize::new(0);
     let options = Options {
-        folder,
-        provenance: "test",
-        seed: None,
         checkpoint: Some(Duration::ZERO),
         progress: &|run, _| {
             let seen = if run == name {
@@ -70,6 +68,7 @@ fn run(text: &str, folder: &Path, (name, stop): (&str, usize)) -> bool {
             };
             assert!(run != name || seen < stop, "stopped");
         },
+        ..quiet(folder)
     };
     let ran = catch_unwind(AssertUnwindSafe(|| run_scene(&scene, None, &options)));
     ran.is_ok_and(|report| report.map(drop).map_err(|e| panic!("{e}")).is_ok())
@@ -150,11 +149,8 @@ fn what_was_kept_of_another_scene_is_not_taken_up_and_damage_is_reported() {
     std::fs::write(&kept, &bytes[..bytes.len() / 2]).unwrap();
     let scene = Scene::parse(SCENE, Path::new("resume.toml")).unwrap();
     let options = Options {
-        folder: damaged.path(),
-        provenance: "test",
-        seed: None,
         checkpoint: Some(Duration::from_secs(60)),
-        progress: &|_, _| (),
+        ..quiet(damaged.path())
     };
     let refused = run_scene(&scene, None, &options).err().unwrap().to_string();
     assert!(

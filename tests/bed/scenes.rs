@@ -1,10 +1,11 @@
 //! Scenes: the shipped ones are sound, stages and bodies do what they say, and the order of tables does not matter.
 
+use crate::scene_run::quiet;
 use impactlaw::bed::bodies::Solid;
 use impactlaw::bed::insertion::{check_bodies, insert};
 use impactlaw::bed::machine::Machine;
 use impactlaw::bed::mesh::read_stl;
-use impactlaw::bed::run::{BedReport, LawRun, Options, run_scene};
+use impactlaw::bed::run::{BedReport, LawRun, run_scene};
 use impactlaw::bed::scene::Scene;
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
@@ -33,14 +34,7 @@ fn parse(text: &str) -> Result<Scene, impactlaw::Error> {
 }
 
 fn run_in(folder: &Path, text: &str) -> Result<BedReport, impactlaw::Error> {
-    let options = Options {
-        folder,
-        provenance: "test",
-        seed: None,
-        checkpoint: None,
-        progress: &|_, _| (),
-    };
-    run_scene(&parse(text)?, None, &options)
+    run_scene(&parse(text)?, None, &quiet(folder))
 }
 
 fn run(text: &str) -> BedReport {

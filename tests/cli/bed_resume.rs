@@ -1,8 +1,9 @@
 //! Interrupted beds through the real binary: killed, called again, they end with the same bits.
 
+use crate::killed::{body, kill_once_kept, was_taken_up};
+use crate::program::program;
 use std::path::Path;
-use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
+use std::process::Command;
 
 /// A few seconds: long enough to be killed on its way.
 const SCENE: &str = r#"
@@ -44,20 +45,10 @@ film = 0
 "#;
 
 fn bed(folder: &Path) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_impactlaw"));
+    let mut command = program(folder);
+    command.args(["-v", "bed", "c.toml", "--out", "results"]);
+    command.args(["--checkpoint", "20 ms"]);
     command
-        .args(["-v", "bed", "c.toml", "--out", "results"])
-        .args(["--checkpoint", "20 ms"])
-        .current_dir(folder)
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped());
-    command
-}
-
-/// A results file without its first line, which names the command.
-fn body(folder: &Path, name: &str) -> String {
-    let text = std::fs::read_to_string(folder.join("results/bed").join(name)).unwrap();
-    text.split_once('\n').unwrap().1.to_owned()
 }
 
 #[test]
@@ -66,38 +57,18 @@ fn a_killed_bed_goes_on_where_it_was_and_ends_with_the_same_bits() {
     for folder in [&killed, &whole] {
         std::fs::write(folder.path().join("c.toml"), SCENE).unwrap();
     }
-    let kept = killed.path().join("results/bed/packing/restart.bin");
-    let mut child = bed(killed.path()).spawn().unwrap();
-    let started = Instant::now();
-    while !kept.is_file() {
-        assert!(
-            child.try_wait().unwrap().is_none(),
-            "ended before it was kept"
-        );
-        assert!(started.elapsed() < Duration::from_secs(120), "never kept");
-        std::thread::sleep(Duration::from_millis(5));
-    }
-    child.kill().unwrap();
-    child.wait().unwrap();
-    assert!(!killed.path().join("results/bed/thornton/bed.csv").exists());
+    let results = |folder: &Path| folder.join("results/bed");
+    let kept = results(killed.path()).join("packing/restart.bin");
+    kill_once_kept(bed(killed.path()), &kept);
+    assert!(!results(killed.path()).join("thornton/bed.csv").exists());
 
-    let again = bed(killed.path()).output().unwrap();
-    let said = String::from_utf8_lossy(&again.stderr).into_owned();
-    assert!(again.status.success(), "{said}");
-    assert!(said.contains("taken up at step"), "{said}");
+    assert!(was_taken_up(bed(killed.path())));
     assert!(!kept.exists());
-
-    let once = bed(whole.path()).output().unwrap();
-    assert!(once.status.success());
-    assert!(!String::from_utf8_lossy(&once.stderr).contains("taken up"));
+    assert!(!was_taken_up(bed(whole.path())));
     for name in ["packing/bed.csv", "thornton/bed.csv", "thornton/bodies.csv"] {
-        assert_eq!(
-            body(killed.path(), name),
-            body(whole.path(), name),
-            "{name}"
-        );
+        let body = |folder: &Path| body(&results(folder).join(name));
+        assert_eq!(body(killed.path()), body(whole.path()), "{name}");
     }
-    let frame =
-        |folder: &Path| std::fs::read(folder.join("results/bed/thornton/vtp/grains_0001.vtp"));
+    let frame = |folder: &Path| std::fs::read(results(folder).join("thornton/vtp/grains_0001.vtp"));
     assert_eq!(frame(killed.path()).unwrap(), frame(whole.path()).unwrap());
 }

@@ -1,16 +1,16 @@
 //! Shipped scenes through the real binary, to their ends: every grain stays and the energy balance closes to 1 %.
 
+use crate::program::{message, program};
 use std::path::Path;
-use std::process::Command;
 
 /// Runs a scene of `cases/` and checks the summary of every run in it.
 fn closes(name: &str) {
     let case = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("cases/{name}.toml"));
     let scratch = tempfile::tempdir().unwrap();
-    let mut command = Command::new(env!("CARGO_BIN_EXE_impactlaw"));
+    let mut command = program(scratch.path());
     command.arg("bed").arg(&case).arg("-o").arg(scratch.path());
     let output = command.output().unwrap();
-    let said = String::from_utf8_lossy(&output.stderr);
+    let said = message(&output);
     assert!(output.status.success(), "{name}: {said}");
     let mut runs = 0;
     for folder in std::fs::read_dir(scratch.path().join("bed")).unwrap() {

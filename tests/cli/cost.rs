@@ -1,20 +1,18 @@
 //! Cost ladders through the real binary: table, CSV and figure; finished runs are kept; unknown ladders are refused.
 
+use crate::program::impactlaw;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Output;
 
 const CASE: &str = "[particle]\nradius = \"250 um\"\n[material]\ndensity = \"8000 kg/m3\"\nyoung_modulus = \"100 GPa\"\n\
     poisson_ratio = 0.35\nyield_strength = \"1.25 GPa\"\n[impact]\nvelocities = [\"50 m/s\"]\n[accuracy]\ntolerance = 0.02\n";
 
 fn cost(folder: &Path, ladder: &str) -> Output {
     std::fs::write(folder.join("c.toml"), CASE).unwrap();
-    Command::new(env!("CARGO_BIN_EXE_impactlaw"))
-        .args([
-            "cost", "c.toml", "--quick", "--out", "o", "--ladder", ladder,
-        ])
-        .current_dir(folder)
-        .output()
-        .unwrap()
+    let arguments = [
+        "cost", "c.toml", "--quick", "--out", "o", "--ladder", ladder,
+    ];
+    impactlaw(folder, &arguments)
 }
 
 #[test]

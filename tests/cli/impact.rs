@@ -1,8 +1,9 @@
 //! Impacts through the real binary: files of the contract, and a run that cannot finish.
 
+use crate::program::{impactlaw, message};
 use impactlaw::curve::{Impact, ParticleMap, Status};
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Output;
 
 fn case(modulus: &str, velocity: &str) -> String {
     format!(
@@ -14,12 +15,8 @@ fn case(modulus: &str, velocity: &str) -> String {
 
 fn impact(folder: &Path, text: &str, more: &[&str]) -> Output {
     std::fs::write(folder.join("c.toml"), text).unwrap();
-    Command::new(env!("CARGO_BIN_EXE_impactlaw"))
-        .args(["impact", "c.toml", "--out", "o"])
-        .args(more)
-        .current_dir(folder)
-        .output()
-        .unwrap()
+    let arguments = ["impact", "c.toml", "--out", "o"];
+    impactlaw(folder, &[&arguments[..], more].concat())
 }
 
 #[test]
@@ -30,11 +27,7 @@ fn an_impact_leaves_curve_summary_and_maps() {
         &case("1 MPa", "1 m/s"),
         &["--velocity", "0.5 m/s"],
     );
-    assert!(
-        output.status.success(),
-        "{}",
-        String::from_utf8_lossy(&output.stderr)
-    );
+    assert!(output.status.success(), "{}", message(&output));
     let done = folder.path().join("o/impact_V0.5");
     let impact = Impact::read(&done).unwrap();
     assert_eq!(impact.summary.status, Status::Ok);
@@ -55,7 +48,7 @@ fn a_run_that_cannot_finish_says_why_and_keeps_what_it_has() {
     // twenty-seven times the wave speed: nothing elastic-plastic survives that
     let output = impact(folder.path(), &case("1 MPa", "300 m/s"), &[]);
     assert_eq!(output.status.code(), Some(2));
-    let message = String::from_utf8(output.stderr).unwrap();
+    let message = message(&output);
     assert!(
         message.contains("300 m/s") && message.contains("step"),
         "{message}"

@@ -4,6 +4,9 @@ mod bed_resume;
 mod bed_shipped;
 mod cost;
 mod impact;
+mod killed;
+#[path = "../support/program.rs"]
+mod program;
 mod report_page;
 mod resume;
 mod study;

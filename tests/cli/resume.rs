@@ -1,8 +1,9 @@
 //! Interrupted impacts through the real binary: killed, called again, they end with the same bits.
 
+use crate::killed::{body, kill_once_kept, was_taken_up};
+use crate::program::{impactlaw, message, program};
 use std::path::Path;
-use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
+use std::process::Command;
 
 /// A second or two: long enough to be killed on its way.
 const CASE: &str = r#"
@@ -20,27 +21,10 @@ tolerance = 0.02
 "#;
 
 fn impact(folder: &Path) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_impactlaw"));
+    let mut command = program(folder);
+    command.args(["-v", "impact", "c.toml", "--out", "results"]);
+    command.args(["--checkpoint", "50 ms"]);
     command
-        .args([
-            "-v",
-            "impact",
-            "c.toml",
-            "--out",
-            "results",
-            "--checkpoint",
-            "50 ms",
-        ])
-        .current_dir(folder)
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped());
-    command
-}
-
-/// A results file without its first line, which names the command.
-fn body(folder: &Path, name: &str) -> String {
-    let text = std::fs::read_to_string(folder.join("results/impact_V60").join(name)).unwrap();
-    text.split_once('\n').unwrap().1.to_owned()
 }
 
 #[test]
@@ -49,40 +33,21 @@ fn a_killed_impact_goes_on_where_it_was_and_ends_with_the_same_bits() {
     for folder in [&killed, &whole] {
         std::fs::write(folder.path().join("c.toml"), CASE).unwrap();
     }
-    let kept = killed.path().join("results/impact_V60/checkpoint.bin");
-    let mut child = impact(killed.path()).spawn().unwrap();
-    let started = Instant::now();
-    while !kept.is_file() {
-        assert!(
-            child.try_wait().unwrap().is_none(),
-            "ended before it was kept"
-        );
-        assert!(started.elapsed() < Duration::from_secs(120), "never kept");
-        std::thread::sleep(Duration::from_millis(5));
-    }
-    child.kill().unwrap();
-    child.wait().unwrap();
-    assert!(!killed.path().join("results/impact_V60/curve.csv").exists());
+    let results = |folder: &Path| folder.join("results/impact_V60");
+    let kept = results(killed.path()).join("checkpoint.bin");
+    kill_once_kept(impact(killed.path()), &kept);
+    assert!(!results(killed.path()).join("curve.csv").exists());
 
-    let again = impact(killed.path()).output().unwrap();
-    let said = String::from_utf8_lossy(&again.stderr).into_owned();
-    assert!(again.status.success(), "{said}");
-    assert!(said.contains("taken up at step"), "{said}");
+    assert!(was_taken_up(impact(killed.path())));
     assert!(!kept.exists());
-
-    let once = impact(whole.path()).output().unwrap();
-    assert!(once.status.success());
-    assert!(!String::from_utf8_lossy(&once.stderr).contains("taken up"));
+    assert!(!was_taken_up(impact(whole.path())));
     for name in [
         "curve.csv",
         "particle_compressed.csv",
         "particle_rebound.csv",
     ] {
-        assert_eq!(
-            body(killed.path(), name),
-            body(whole.path(), name),
-            "{name}"
-        );
+        let body = |folder: &Path| body(&results(folder).join(name));
+        assert_eq!(body(killed.path()), body(whole.path()), "{name}");
     }
 }
 
@@ -93,9 +58,7 @@ fn a_checkpoint_of_another_impact_is_not_taken_up() {
     let place = folder.path().join("results/impact_V60");
     std::fs::create_dir_all(&place).unwrap();
     std::fs::write(place.join("checkpoint.bin"), [7u8; 4096]).unwrap();
-    let output = impact(folder.path()).output().unwrap();
-    assert!(output.status.success());
-    assert!(!String::from_utf8_lossy(&output.stderr).contains("taken up"));
+    assert!(!was_taken_up(impact(folder.path())));
     assert!(!place.join("checkpoint.bin").exists());
 }
 
@@ -103,12 +66,9 @@ fn a_checkpoint_of_another_impact_is_not_taken_up() {
 fn a_bad_checkpoint_interval_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("c.toml"), CASE).unwrap();
-    let output = Command::new(env!("CARGO_BIN_EXE_impactlaw"))
-        .args(["impact", "c.toml", "--checkpoint", "fast"])
-        .current_dir(folder.path())
-        .output()
-        .unwrap();
+    let arguments = ["impact", "c.toml", "--checkpoint", "fast"];
+    let output = impactlaw(folder.path(), &arguments);
     assert_eq!(output.status.code(), Some(2));
-    assert!(String::from_utf8_lossy(&output.stderr).contains("--checkpoint"));
+    assert!(message(&output).contains("--checkpoint"));
     assert!(!folder.path().join("out").exists());
 }

@@ -1,7 +1,8 @@
 //! Studies through the real binary: the file contract, equal groups run once, finished runs kept.
 
+use crate::program::{impactlaw, message};
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Output;
 
 const STUDY: &str = r#"
 [particle]
@@ -18,11 +19,7 @@ tolerance = 0.2
 "#;
 
 fn study(folder: &Path) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_impactlaw"))
-        .args(["study", "s.toml", "--out", "results"])
-        .current_dir(folder)
-        .output()
-        .unwrap()
+    impactlaw(folder, &["study", "s.toml", "--out", "results"])
 }
 
 #[test]
@@ -30,11 +27,7 @@ fn equal_groups_run_once_and_a_second_call_repeats_nothing() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("s.toml"), STUDY).unwrap();
     let output = study(folder.path());
-    assert!(
-        output.status.success(),
-        "{}",
-        String::from_utf8_lossy(&output.stderr)
-    );
+    assert!(output.status.success(), "{}", message(&output));
     let text = String::from_utf8(output.stdout).unwrap();
     // 2000 kg/m3 at 40 m/s is 8000 kg/m3 at 20 m/s
     assert!(
@@ -70,11 +63,8 @@ fn equal_groups_run_once_and_a_second_call_repeats_nothing() {
 fn refinement_runs_the_drawn_cases_again_with_finer_cells() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("s.toml"), STUDY).unwrap();
-    let output = Command::new(env!("CARGO_BIN_EXE_impactlaw"))
-        .args(["study", "s.toml", "--out", "results", "--refine", "2"])
-        .current_dir(folder.path())
-        .output()
-        .unwrap();
+    let arguments = ["study", "s.toml", "--out", "results", "--refine", "2"];
+    let output = impactlaw(folder.path(), &arguments);
     let said = String::from_utf8_lossy(&output.stdout).into_owned();
     assert!(output.status.success(), "{said}");
     assert!(said.contains("2 of 2 runs change by less"), "{said}");
@@ -100,7 +90,7 @@ fn a_bad_study_is_refused_before_anything_is_written() {
     .unwrap();
     let output = study(folder.path());
     assert_eq!(output.status.code(), Some(2));
-    let text = String::from_utf8(output.stderr).unwrap();
+    let text = message(&output);
     assert!(text.contains("material.young_over_yield[1]"), "{text}");
     assert!(!folder.path().join("results").exists());
 }

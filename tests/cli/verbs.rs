@@ -1,7 +1,7 @@
 //! Command line through the real binary: bad input gives one clear error, exit code 2 and writes nothing.
 
+use crate::program::{impactlaw, message};
 use std::path::Path;
-use std::process::{Command, Output};
 use tempfile::TempDir;
 
 const CASE: &str = r#"[particle]
@@ -27,28 +27,12 @@ const READERS: [&[&str]; 6] = [
     &["theory", "hertz", "case.toml", "--velocities", "10 m/s"],
 ];
 
-fn impactlaw(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_impactlaw"))
-        .args(arguments)
-        .current_dir(folder)
-        .env("NO_COLOR", "1")
-        .output()
-        .unwrap()
-}
-
 fn folder_with(files: &[(&str, &str)]) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     for (name, text) in files {
         std::fs::write(folder.path().join(name), text).unwrap();
     }
     folder
-}
-
-/// Standard error with line breaks and drawing characters of the snippet taken out.
-fn message(output: &Output) -> String {
-    let text = String::from_utf8_lossy(&output.stderr).into_owned();
-    let words = text.replace(['│', '×', '╭', '╰', '─', '·', '╷'], " ");
-    words.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 fn names_in(folder: &Path) -> Vec<String> {

@@ -1,6 +1,7 @@
 //! The exported C law is the law: compiled without a warning and run along random paths; and what `export` refuses.
 
 use crate::codes::{self, assert_close, models, put_input, succeed};
+use crate::program;
 use impactlaw::contact::rebound::{Rebound, rebound};
 use impactlaw::contact::{LawVisitor, NormalLaw};
 use impactlaw::export::c;
@@ -8,8 +9,7 @@ use impactlaw::export::check::driver::{FLAGS, compiler};
 use impactlaw::export::check::{Check, CompilerCheck, Finding, series};
 use impactlaw::export::portable::Portable;
 use impactlaw::law::{Form, LawFile};
-use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Command;
 
 /// Every form of every published law, and the elastic law of each material.
 fn laws() -> Vec<Portable> {
@@ -180,15 +180,6 @@ fn the_header_says_what_a_user_of_it_has_to_know() {
     assert!(!text.contains("law_") && !text.contains("LAW_FUNCTION_"));
 }
 
-fn impactlaw(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_impactlaw"))
-        .args(arguments)
-        .current_dir(folder)
-        .env("NO_COLOR", "1")
-        .output()
-        .unwrap()
-}
-
 #[test]
 fn bad_arguments_give_one_error_and_write_nothing() {
     let model = models()[0].display().to_string();
@@ -215,10 +206,9 @@ fn bad_arguments_give_one_error_and_write_nothing() {
     ] {
         let mut all = vec!["export", &model, "-o", "out"];
         all.extend(arguments);
-        let output = impactlaw(folder.path(), &all);
+        let output = program::impactlaw(folder.path(), &all);
         assert_eq!(output.status.code(), Some(2));
-        let message = String::from_utf8_lossy(&output.stderr).into_owned();
-        let message = message.split_whitespace().collect::<Vec<_>>().join(" ");
+        let message = program::message(&output);
         assert!(message.contains(words), "{message}");
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
     }
@@ -228,7 +218,7 @@ fn bad_arguments_give_one_error_and_write_nothing() {
 fn the_table_gives_the_law_back() {
     let folder = tempfile::tempdir().unwrap();
     let model = models()[0].display().to_string();
-    let output = impactlaw(folder.path(), &["export", &model, "--to", "table"]);
+    let output = program::impactlaw(folder.path(), &["export", &model, "--to", "table"]);
     assert_eq!(output.status.code(), Some(0));
     let path = folder.path().join("out/thesis-4-4/export/thesis_4_4.csv");
     let text = std::fs::read_to_string(path).unwrap();

@@ -9,5 +9,7 @@ mod liggghts;
 mod native;
 #[path = "../../benches/packing/mod.rs"]
 mod packing;
+#[path = "../support/program.rs"]
+mod program;
 mod scene;
 mod shims;

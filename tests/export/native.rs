@@ -1,6 +1,7 @@
 //! Models that codes ship, fitted to a law: closed forms of the models, and lines that give in the code what they predict.
 
 use crate::codes;
+use crate::program::impactlaw;
 use impactlaw::contact::NormalLaw;
 use impactlaw::contact::rebound::rebound;
 use impactlaw::export::check::{Check, Finding, NativeCheck};
@@ -13,7 +14,6 @@ use impactlaw::law::file::HertzTable;
 use impactlaw::law::{Form, LawFile};
 use impactlaw::theory::hertz::Hertz;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 fn model(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -175,13 +175,8 @@ fn everything_for_an_elastic_law_leaves_the_projections_out() {
     )
     .unwrap();
     let code = |to| {
-        Command::new(env!("CARGO_BIN_EXE_impactlaw"))
-            .args(["export", "law.toml", "--to", to, "-o", to])
-            .current_dir(folder.path())
-            .output()
-            .unwrap()
-            .status
-            .code()
+        let arguments = ["export", "law.toml", "--to", to, "-o", to];
+        impactlaw(folder.path(), &arguments).status.code()
     };
     assert_eq!(code("native"), Some(2));
     assert!(!folder.path().join("native").exists());

@@ -2,16 +2,12 @@
 
 use crate::codes::exported::Installed;
 use crate::codes::{self, assert_close, solder, succeed};
+use crate::program::{message, program};
 use impactlaw::export::scene::Code;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 /// Allowed deviation: of stresses from the largest one (root mean square), of heights and contacts from ours.
 const ALLOWED: f64 = 0.03;
-
-fn program() -> Command {
-    Command::new(env!("CARGO_BIN_EXE_impactlaw"))
-}
 
 fn model() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("models/sac305-solder.toml")
@@ -118,7 +114,7 @@ fn curve(rows: &[Vec<f64>], coordination: impl Fn(usize) -> f64) -> Curve {
 
 /// The scene run here.
 fn ours(scene: &Path, folder: &Path) -> Curve {
-    succeed(program().arg("bed").arg(scene).arg("-o").arg(folder));
+    succeed(program(folder).arg("bed").arg(scene).arg("-o").arg(folder));
     let names = ["height_m", "strain", "stress_Pa", "coordination"];
     let rows = columns(&folder.join("bed/fitted/bed.csv"), &names);
     curve(&rows, |row| rows[row][3])
@@ -127,7 +123,7 @@ fn ours(scene: &Path, folder: &Path) -> Curve {
 /// Exports the scene for a code; the folder it is in.
 fn exported(scene: &Path, folder: &Path, code: &str) -> PathBuf {
     succeed(
-        program()
+        program(folder)
             .args(["bed", "export"])
             .arg(scene)
             .args(["--to", code, "-o"])
@@ -238,14 +234,14 @@ fn what_is_not_exported_is_refused_by_name_and_nothing_is_written() {
     for (scene, key) in [("bed-drum.toml", "box"), ("bed-impact.toml", "body[0]")] {
         let scratch = tempfile::tempdir().unwrap();
         let out = scratch.path().join("out");
-        let mut command = program();
+        let mut command = program(scratch.path());
         command
             .args(["bed", "export"])
             .arg(cases.join(scene))
             .args(["--to", "lammps", "-o"])
             .arg(&out);
         let output = command.output().unwrap();
-        let said = String::from_utf8_lossy(&output.stderr);
+        let said = message(&output);
         assert_eq!(output.status.code(), Some(2), "{said}");
         assert!(said.contains(&format!("`{key}`")), "{scene}: {said}");
         assert!(!out.exists());
@@ -255,13 +251,14 @@ fn what_is_not_exported_is_refused_by_name_and_nothing_is_written() {
 #[test]
 fn a_code_that_is_not_known_is_refused_with_those_that_are() {
     let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/bed-oedometer.toml");
-    let output = program()
+    let scratch = tempfile::tempdir().unwrap();
+    let output = program(scratch.path())
         .args(["bed", "export"])
         .arg(case)
         .args(["--to", "edem"])
         .output()
         .unwrap();
-    let said = String::from_utf8_lossy(&output.stderr);
+    let said = message(&output);
     assert_eq!(output.status.code(), Some(2), "{said}");
     assert!(said.contains("must be one of lammps, liggghts"), "{said}");
 }

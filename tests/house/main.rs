@@ -1,4 +1,8 @@
-//! The source tree itself: which room may use which, and what its scripts may hold.
+//! The source tree itself: which room may use which, what its scripts may hold, and equations that can be read.
 
+#[path = "../support/browser.rs"]
+mod browser;
+mod equations;
 mod rooms;
 mod scripts;
+mod sources;

@@ -1,7 +1,7 @@
 //! Rooms: data go one way. Each module of `src` may use those before it in the order below, never one after it.
 
+use crate::sources::sources;
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
 
 /// The order; a room may use rooms of earlier lines.
 const ORDER: [&[&str]; 18] = [
@@ -29,36 +29,6 @@ const LONGEST_FILE: usize = 400;
 
 fn rank(room: &str) -> Option<usize> {
     ORDER.iter().position(|rooms| rooms.contains(&room))
-}
-
-fn rust_files(folder: &Path, files: &mut Vec<PathBuf>) {
-    for entry in std::fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.is_dir() {
-            rust_files(&path, files);
-        } else if path.extension().is_some_and(|extension| extension == "rs") {
-            files.push(path);
-        }
-    }
-}
-
-/// Every source file with its room (first part of its path) and its text.
-fn sources() -> Vec<(PathBuf, String, String)> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    let mut files = Vec::new();
-    rust_files(&root, &mut files);
-    files.sort();
-    files
-        .into_iter()
-        .map(|path| {
-            let inside = path.strip_prefix(&root).unwrap();
-            let first = inside.components().next().unwrap().as_os_str();
-            let room = first.to_string_lossy().trim_end_matches(".rs").to_owned();
-            let text = std::fs::read_to_string(&path).unwrap();
-            (inside.to_owned(), room, text)
-        })
-        .filter(|(_, room, _)| room != "lib" && room != "main")
-        .collect()
 }
 
 /// Rooms named after `crate::`, also within braces; comments and tests do not count.

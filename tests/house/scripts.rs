@@ -25,7 +25,7 @@ fn scripts(folder: &Path, found: &mut Vec<PathBuf>) {
             if name != ".git" && name != "target" {
                 scripts(&path, found);
             }
-        } else if folder.ends_with(".ci") || is_script(&path) {
+        } else if folder.file_name().is_some_and(|name| name == ".ci") || is_script(&path) {
             found.push(path);
         }
     }

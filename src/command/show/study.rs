@@ -42,7 +42,7 @@ impl Row {
     }
 }
 
-/// Markdown table of the runs, one row a range of $\\rho V^2/Y$ that holds any.
+/// Markdown table of the runs, one row a range of $\rho V^2/Y$ that holds any.
 #[must_use]
 pub fn overview<'a>(runs: impl Iterator<Item = (&'a Case, &'a Summary)>) -> String {
     let mut rows: [Row; EDGES.len()] = std::array::from_fn(|_| Row::default());

@@ -4,7 +4,7 @@ use crate::contact::NormalLaw;
 
 /// Power-law loading and a stiffer power-law branch in unloading.
 ///
-/// $$ F = k_1 \delta^n, \qquad \text{unloading:}\quad F = \max\big(0,\; k_2 (\delta^n - \delta_m^n) + k_1 \delta_m^n\big) $$
+/// $$ F = k_1 \delta^n, \qquad \text{unloading:}\quad F = \max\big(0,\quad k_2 (\delta^n - \delta_m^n) + k_1 \delta_m^n\big) $$
 ///
 /// One body: $F/R^2 = \kappa_1 x^n$, $k_1 = \kappa_1 R^{2-n}$ on a wall. Both branches are powers of $\delta^n$, so e is the
 /// same at every speed. Source: Morrissey 2013 (thesis, Edinburgh), eqs. for $k_{adh} = 0$, $f_0 = 0$, as in

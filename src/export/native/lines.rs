@@ -169,7 +169,7 @@ impl Springs {
         liggghts("luding", "liggghts_luding.in", &properties.concat(), "")
     }
 
-    /// The model takes $k_1 = \tfrac{16}{15} \sqrt{R^*} E^* (15 m^* V^2/(16 \sqrt{R^*} E^*))^{1/5}$: the characteristic
+    /// The model takes $k_1 = \tfrac{16}{15} \sqrt{R^\ast} E^\ast (15 m^\ast V^2/(16 \sqrt{R^\ast} E^\ast))^{1/5}$: the characteristic
     /// velocity that gives ours, and a wall whose modulus makes it twice as stiff.
     fn hooke_hysteresis(&self, material: &Material, radius: f64) -> Lines {
         let modulus = 0.5 * material.contact_modulus();

@@ -6,11 +6,11 @@ use std::f64::consts::PI;
 
 /// Elastic-plastic sphere mapped on an elliptical indenter of height A and width B in a bed of springs.
 ///
-/// $$ F = \frac{E^* A B}{4} \left[\arccos\left(1 - \frac{2\delta_e}{A}\right) - \left(2 - \frac{4\delta_e}{A}\right)
+/// $$ F = \frac{E^\ast A B}{4} \left[\arccos\left(1 - \frac{2\delta_e}{A}\right) - \left(2 - \frac{4\delta_e}{A}\right)
 ///    \sqrt{\frac{\delta_e}{A} - \frac{\delta_e^2}{A^2}}\right], \qquad
-///    p_Y = Y \left(1 + 1.75\, e^{-4.4\, \delta_m/R}\right) $$
+///    p_Y = Y \left(1 + 1.75\ e^{-4.4\ \delta_m/R}\right) $$
 ///
-/// Elastic: $A = 4R$, $B = 2R$, $\delta_e = \delta$. From where Hertz's mean pressure exceeds $p_Y$: $A = 4 p_Y a_m/E^*$,
+/// Elastic: $A = 4R$, $B = 2R$, $\delta_e = \delta$. From where Hertz's mean pressure exceeds $p_Y$: $A = 4 p_Y a_m/E^\ast$,
 /// $B = 2 a_m$, $\delta_e = (\delta - \delta_m + A/2 + \delta_R)/(1 + 2\delta_R/A)$ with the contact radius $a_m$ at the
 /// largest flattening and the correction $\delta_R$ of the displaced free surface.
 ///

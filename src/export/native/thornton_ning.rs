@@ -4,15 +4,15 @@ use crate::contact::NormalLaw;
 
 /// Elastic-plastic sphere with a limited pressure, with the unloading of the code.
 ///
-/// $$ \varphi = \tfrac43 E^* x^{3/2} \ (x \le c^2), \quad \varphi = \varphi_y + 2 E^* c\,(x - c^2) \ (x > c^2), \qquad
-///    \text{unloading:}\quad \varphi = \varphi_m - \tfrac43 E^* (x_m^{3/2} - x^{3/2}) $$
+/// $$ \varphi = \tfrac43 E^\ast x^{3/2} \ (x \le c^2), \quad \varphi = \varphi_y + 2 E^\ast c\ (x - c^2) \ (x > c^2), \qquad
+///    \text{unloading:}\quad \varphi = \varphi_m - \tfrac43 E^\ast (x_m^{3/2} - x^{3/2}) $$
 ///
 /// $c$ is `coefficientYieldRatio`, the contact radius at yield over R. The paper (Thornton and Ning 1998, Powder Technol.
 /// 99:154) unloads with an enlarged radius $R_p$; `normal_model_thornton_ning.h` of LIGGGHTS 3.8 does so with surface
 /// energy only: without, its unloading is Hertz's curve of the undeformed sphere, shifted, and that is what is here.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ThorntonNing {
-    /// $E^*$, Pa.
+    /// $E^\ast$, Pa.
     pub modulus: f64,
     /// $c$.
     pub yield_ratio: f64,

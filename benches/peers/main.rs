@@ -1,16 +1,11 @@
 //! A run that other codes can repeat: the shared packing is shaken and comes to rest, walls being of the grains' material.
 //!
-//!     cargo bench --bench peers -- [--write DIR] [--steps N] [--across N] [--threads N] [--nudge SEED]
-//!                                  [--friction MU] [--restitution E] [--dt SECONDS]
-//!
-//! prints rows of step, kinetic energy (J), contacts per grain, mean and largest height (m), then the particle-steps a
-//! second, and peak memory where the system tells. `--nudge` moves every grain by up to 1e-9 of its radius first, to see how far
-//! two runs of one scene drift apart. `--write` writes the packing for LAMMPS and LIGGGHTS instead, its velocities being those of
-//! the same friction, restitution and step.
-//! `benches/peers.sh` runs all of them and compares.
+//! `cargo run --release --example peers -- --help` lists the options; `benches/peers.sh` runs all codes and compares them.
 
+#[path = "../packing/mod.rs"]
 mod packing;
 
+use clap::Parser;
 use impactlaw::bed::damping::Viscous;
 use impactlaw::bed::friction::Mindlin;
 use impactlaw::bed::grains::Grains;
@@ -22,26 +17,43 @@ use impactlaw::theory::hertz::Hertz;
 use packing::{GRAVITY, MATERIAL, RADIUS};
 use parry3d::math::Vector;
 use std::fmt::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-const DT: f64 = 1e-5;
 /// Steps between rows.
 const ROW: usize = 250;
 /// Largest component of the velocities a grain is shaken with, m/s.
 const SHAKE: f64 = 0.1;
 
-fn argument(name: &str) -> Option<String> {
-    let mut arguments = std::env::args().skip_while(|argument| argument != name);
-    arguments.nth(1)
-}
-
-fn number(name: &str, otherwise: usize) -> usize {
-    argument(name).map_or(otherwise, |text| text.parse().expect("a whole number"))
-}
-
-fn coefficient(name: &str, otherwise: f64) -> f64 {
-    argument(name).map_or(otherwise, |text| text.parse().expect("a number"))
+/// The shared packing, shaken: prints rows of step, kinetic energy (J), contacts per grain, mean and largest height (m), then
+/// the particle-steps a second, and peak memory where the system tells.
+#[derive(Parser)]
+struct Options {
+    /// Write the packing for LAMMPS and LIGGGHTS (packing.data) into this folder instead, its velocities being those of the
+    /// same friction, restitution and step
+    #[arg(long, value_name = "DIR")]
+    write: Option<PathBuf>,
+    /// Steps to run
+    #[arg(long, default_value_t = 4000)]
+    steps: usize,
+    /// Copies of the packing side by side, along x and along y
+    #[arg(long, default_value_t = 1, conflicts_with = "write")]
+    across: usize,
+    /// Threads to run on
+    #[arg(long, default_value_t = 1)]
+    threads: usize,
+    /// Moves every grain by up to 1e-9 of its radius first, to see how far two runs of one scene drift apart (0: not at all)
+    #[arg(long, value_name = "SEED", default_value_t = 0)]
+    nudge: usize,
+    /// Coefficient of friction, of grains and walls
+    #[arg(long, value_name = "MU", default_value_t = 0.5)]
+    friction: f64,
+    /// Coefficient of restitution of the viscous damping
+    #[arg(long, value_name = "E", default_value_t = 0.8)]
+    restitution: f64,
+    /// Time step, s
+    #[arg(long, value_name = "SECONDS", default_value_t = 1e-5)]
+    dt: f64,
 }
 
 /// The packing with every grain moving, none faster than the shake.
@@ -67,8 +79,8 @@ fn nudge(grains: &mut Grains, seed: usize) {
 
 /// Velocities and angular velocities at the time of the positions: the other codes start from these, a bed from those
 /// half a step before.
-fn present(before: &Grains, across: usize) -> Vec<[Vector; 2]> {
-    let mut bed = bed(across);
+fn present(before: &Grains, options: &Options) -> Vec<[Vector; 2]> {
+    let mut bed = bed(options);
     bed.step().expect("it stays in its box");
     let mut places = vec![0; before.len()];
     for (at, id) in before.ids.iter().enumerate() {
@@ -86,7 +98,8 @@ fn present(before: &Grains, across: usize) -> Vec<[Vector; 2]> {
 }
 
 /// `packing.data`, which LAMMPS (`atom_style sphere`) and LIGGGHTS (`granular`) read.
-fn write(folder: &Path, grains: &Grains, across: usize) -> std::io::Result<()> {
+fn write(folder: &Path, options: &Options) -> std::io::Result<()> {
+    let grains = shaken(options.across);
     let mut text = format!(
         "shaken packing\n\n{} atoms\n2 atom types\n\n0 0.046 xlo xhi\n0 0.046 ylo yhi\n0 0.12 zlo zhi\n\nAtoms\n\n",
         grains.len()
@@ -97,19 +110,19 @@ fn write(folder: &Path, grains: &Grains, across: usize) -> std::io::Result<()> {
         writeln!(text, "{row}{:.13} {:.13} {:.13}", c.x, c.y, c.z).expect("a string takes it");
     }
     text.push_str("\nVelocities\n\n");
-    for (at, [v, w]) in present(grains, across).iter().enumerate() {
+    for (at, [v, w]) in present(&grains, options).iter().enumerate() {
         let row = format!("{} {} {} {}", at + 1, v.x, v.y, v.z);
         writeln!(text, "{row} {} {} {}", w.x, w.y, w.z).expect("a string takes it");
     }
     std::fs::write(folder.join("packing.data"), text)
 }
 
-fn bed(across: usize) -> Bed<Law<Viscous, Mindlin, ()>> {
+fn bed(options: &Options) -> Bed<Law<Viscous, Mindlin, ()>> {
     let parts = Parts {
-        grains: shaken(across),
-        machine: packing::walls(across),
+        grains: shaken(options.across),
+        machine: packing::walls(options.across),
         gravity: GRAVITY,
-        dt: coefficient("--dt", DT),
+        dt: options.dt,
         skin: 0.2 * RADIUS,
     };
     // a wall of the grains' material: 1/E* = 2 (1 - nu^2)/E
@@ -118,8 +131,8 @@ fn bed(across: usize) -> Bed<Law<Viscous, Mindlin, ()>> {
         pair: Box::new(Model(Twins(Hertz::of(&MATERIAL)))),
         wall: Box::new(Model(Flat(wall))),
     };
-    let friction = Mindlin::between([Some(&MATERIAL); 2], coefficient("--friction", 0.5));
-    let damping = Viscous::new(coefficient("--restitution", 0.8));
+    let friction = Mindlin::between([Some(&MATERIAL); 2], options.friction);
+    let damping = Viscous::new(options.restitution);
     Bed::new(Law::new(damping, friction, ()), normals, parts)
 }
 
@@ -131,14 +144,14 @@ fn peak_memory() -> Option<f64> {
     Some(1024.0 * kilobytes)
 }
 
-fn run(across: usize, steps: usize) {
-    let mut bed = bed(across);
-    nudge(&mut bed.grains, number("--nudge", 0));
+fn run(options: &Options) {
+    let mut bed = bed(options);
+    nudge(&mut bed.grains, options.nudge);
     let grains = bed.grains.len() as f64;
     let mut spent = 0.0;
     println!("step,kinetic_J,contacts_per_grain,mean_height_m,top_m");
-    for step in 0..=steps {
-        if step % ROW == 0 || step == steps {
+    for step in 0..=options.steps {
+        if step % ROW == 0 || step == options.steps {
             bed.evaluate().expect("it stays in its box");
             let heights = bed.grains.spheres.iter().map(|sphere| sphere.centre.z);
             let mean = heights.clone().sum::<f64>() / grains;
@@ -153,7 +166,7 @@ fn run(across: usize, steps: usize) {
         bed.step().expect("it stays in its box");
         spent += began.elapsed().as_secs_f64();
     }
-    let rate = grains * (steps + 1) as f64 / spent;
+    let rate = grains * (options.steps + 1) as f64 / spent;
     println!("# {grains} grains: {rate:.3e} particle-steps/s of wall time");
     if let Some(bytes) = peak_memory() {
         println!(
@@ -165,13 +178,14 @@ fn run(across: usize, steps: usize) {
 }
 
 fn main() {
-    if let Some(folder) = argument("--write") {
-        write(Path::new(&folder), &shaken(1), 1).expect("the folder can be written to");
+    let options = Options::parse();
+    if let Some(folder) = &options.write {
+        write(folder, &options).expect("the folder can be written to");
         return;
     }
     let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(number("--threads", 1))
+        .num_threads(options.threads)
         .build()
         .expect("threads start");
-    pool.install(|| run(number("--across", 1), number("--steps", 4000)));
+    pool.install(|| run(&options));
 }
