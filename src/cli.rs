@@ -13,10 +13,10 @@ pub struct Cli {
     /// Worker threads (0: all cores). Results do not depend on it.
     #[arg(long, global = true, default_value_t = 0)]
     pub threads: usize,
-    /// Say more: -v progress of every stage, -vv solver detail.
+    /// More output: -v progress of every stage, -vv solver detail.
     #[arg(short, long, global = true, action = clap::ArgAction::Count)]
     pub verbose: u8,
-    /// Say nothing but errors.
+    /// Print errors only.
     #[arg(short, long, global = true, conflicts_with = "verbose")]
     pub quiet: bool,
 }
@@ -24,7 +24,7 @@ pub struct Cli {
 /// The verbs.
 #[derive(Debug, Subcommand)]
 pub enum Verb {
-    /// Whole path: plan, impacts, fit, comparison, bed, report.
+    /// Run everything: plan, impacts, fit, comparison, bed, report.
     Run(RunArgs),
     /// Print what would be run, why, and the predicted seconds.
     Plan(PlanArgs),
@@ -32,7 +32,7 @@ pub enum Verb {
     Impact(ImpactArgs),
     /// Fit a contact law to simulated impacts: `law.toml`.
     Fit(FitArgs),
-    /// Hold a law and the theories against simulated impacts: `compare.csv`, table, plots.
+    /// Compare a law and the theories with simulated impacts: `compare.csv`, table, plots.
     Compare(CompareArgs),
     /// Evaluate a theory: force against displacement, or restitution against velocity, as CSV.
     Theory(TheoryArgs),
@@ -67,10 +67,10 @@ pub struct RunArgs {
     /// Output folder (default: `out/<case name>`).
     #[arg(short, long)]
     pub out: Option<PathBuf>,
-    /// Leave the bed out, even if the case names a scene.
+    /// Skip the bed even if the case names a scene.
     #[arg(long)]
     pub no_bed: bool,
-    /// Seed of everything random (bed insertion), instead of the scene's.
+    /// Random seed (bed insertion), overriding the scene's.
     #[arg(long)]
     pub seed: Option<u64>,
 }
@@ -80,7 +80,7 @@ pub struct RunArgs {
 pub struct PlanArgs {
     /// Case file.
     pub case: PathBuf,
-    /// Speeds instead of the case's, e.g. `--velocity "10 m/s"`.
+    /// Speeds, overriding the case's, e.g. `--velocity "10 m/s"`.
     #[arg(long)]
     pub velocity: Vec<String>,
 }
@@ -90,13 +90,13 @@ pub struct PlanArgs {
 pub struct ImpactArgs {
     /// Case file.
     pub case: PathBuf,
-    /// Speeds instead of the case's, e.g. `--velocity "10 m/s"`.
+    /// Speeds, overriding the case's, e.g. `--velocity "10 m/s"`.
     #[arg(long)]
     pub velocity: Vec<String>,
     /// Output folder (default: `out/<case name>`).
     #[arg(short, long)]
     pub out: Option<PathBuf>,
-    /// How often a run under way is kept, so that the same command goes on after an interruption.
+    /// How often a run saves a checkpoint, from which the same command resumes after an interruption.
     #[arg(long, default_value = "30 s")]
     pub checkpoint: String,
 }
@@ -156,7 +156,7 @@ pub struct TheoryArgs {
     arg_required_else_help = true
 )]
 pub struct BedArgs {
-    /// Something else than running the scene here.
+    /// What to do other than run the scene here.
     #[command(subcommand)]
     pub verb: Option<BedVerb>,
     /// The run.
@@ -182,10 +182,10 @@ pub struct BedExportArgs {
     /// Law file for the grains whose law the scene calls `fitted`.
     #[arg(short, long)]
     pub law: Option<PathBuf>,
-    /// Output folder (default: `out/<scene name>`); files go to a folder of the code's name in it.
+    /// Output folder (default: `out/<scene name>`); files go into a subfolder named after the code.
     #[arg(short, long)]
     pub out: Option<PathBuf>,
-    /// Seed of the insertion, instead of the scene's.
+    /// Insertion seed, overriding the scene's.
     #[arg(long)]
     pub seed: Option<u64>,
 }
@@ -201,10 +201,10 @@ pub struct BedRunArgs {
     /// Output folder (default: `out/<scene name>`).
     #[arg(short, long)]
     pub out: Option<PathBuf>,
-    /// Seed of the insertion, instead of the scene's.
+    /// Insertion seed, overriding the scene's.
     #[arg(long)]
     pub seed: Option<u64>,
-    /// How often a run under way is kept, so that the same command goes on after an interruption.
+    /// How often a run saves a checkpoint, from which the same command resumes after an interruption.
     #[arg(long, default_value = "30 s")]
     pub checkpoint: String,
 }
@@ -217,8 +217,8 @@ pub struct StudyArgs {
     /// Output folder; by default `out/` and the study's name.
     #[arg(short, long)]
     pub out: Option<PathBuf>,
-    /// Also run this many cases, drawn over the whole range, with cells of half the size, and hold the change against the
-    /// tolerance.
+    /// Also run this many cases, drawn over the whole range, with cells of half the size, and compare the change with
+    /// the tolerance.
     #[arg(long, default_value_t = 0)]
     pub refine: usize,
 }
@@ -228,16 +228,16 @@ pub struct StudyArgs {
 pub struct CostArgs {
     /// Case file.
     pub case: PathBuf,
-    /// Speeds instead of the case's fastest, e.g. `--velocity "10 m/s"`.
+    /// Speeds, overriding the case's fastest, e.g. `--velocity "10 m/s"`.
     #[arg(long)]
     pub velocity: Vec<String>,
     /// Coarse ladders only: less than a minute.
     #[arg(long)]
     pub quick: bool,
-    /// Ladders to run beside the reference, by the beginning of their names, e.g. `--ladder cells` (default: all).
+    /// Ladders to run beside the reference, selected by the start of their names, e.g. `--ladder cells` (default: all).
     #[arg(long)]
     pub ladder: Vec<String>,
-    /// Leave out what is predicted to take longer than this.
+    /// Skip runs predicted to take longer than this.
     #[arg(long, default_value = "2 min")]
     pub longest: String,
     /// Output folder (default: `out/<case name>`); files go to `cost` in it, and finished runs are kept there.
@@ -266,10 +266,10 @@ pub struct LawEvalArgs {
 pub struct ExportArgs {
     /// Law file.
     pub law: PathBuf,
-    /// Where the law goes: `c`, `liggghts`, `lammps`, `table`, `native`, `deme`, `mercurydpm`; more than one with commas, or `all`.
+    /// Targets: `c`, `liggghts`, `lammps`, `table`, `native`, `deme`, `mercurydpm`; several separated by commas, or `all`.
     #[arg(long, num_args = 1.., value_delimiter = ',')]
     pub to: Vec<String>,
-    /// Form of the law instead of the file's: `closed_form`, `spline` or `hertz`.
+    /// Form of the law, overriding the file's: `closed_form`, `spline` or `hertz`.
     #[arg(long)]
     pub form: Option<String>,
     /// Law file of a second material: contacts of the two, for target `c`.

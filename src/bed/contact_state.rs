@@ -1,4 +1,4 @@
-//! Contact state: what a listed pair of grains holds and remembers, as measures and files ask for it.
+//! Contact state: queries on a listed pair of grains, for measures and output.
 
 use super::contacts::{CHUNK, Contacts};
 use super::law::ContactLaw;

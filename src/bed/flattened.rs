@@ -1,4 +1,4 @@
-//! Flattened: the sides of many contacts that are all of one law, its type hidden.
+//! Type-erased contact sides of one law.
 
 use crate::contact::pair::Side;
 use crate::contact::{LawVisitor, NormalLaw};

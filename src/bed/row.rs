@@ -99,7 +99,7 @@ pub struct Progress {
     pub stage: String,
     /// Speed of the piston, m/s; 0 while it is parked.
     pub piston_speed: f64,
-    /// Height from which on the seating stress has lasted, m; none before that is known.
+    /// Height at which the seating stress began to be sustained, m; none before that is known.
     pub seated_height: Option<f64>,
     /// Energy balance at the start of the account, J.
     pub first_balance: f64,

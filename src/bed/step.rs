@@ -305,8 +305,8 @@ impl<C: ContactLaw> Bed<C> {
     }
 }
 
-/// Two tasks one after the other where one thread does it all, else side by side. Fewer ends of parallel work a step are fewer
-/// moments at which threads fall asleep.
+/// Two tasks one after the other where one thread does it all, else side by side. Each extra
+/// join lets workers go idle.
 fn both<A: Send, B: Send>(
     is_small: bool,
     first: impl FnOnce() -> A + Send,

@@ -42,7 +42,7 @@ pub fn run(args: &FitArgs, _context: &Context) -> Result<Verdict> {
     Ok(Verdict::Missed)
 }
 
-/// That the impacts of a case can be held against a normal law.
+/// Checks that the impacts of a case can be compared with a normal law.
 ///
 /// # Errors
 /// [`Error::Argument`] for an oblique impact or a wall with friction.

@@ -61,7 +61,7 @@ pub struct Memory {
 
 keep_fields!(Memory: flattening, force, residual, exponent);
 
-/// Rounding allowed when the bound of the loading exponent is held against that of unloading.
+/// Rounding allowed when the bound of the loading exponent is compared with that of unloading.
 const EXPONENT_ROUNDING: f64 = 1e-9;
 
 impl<L: Loading> Elastoplastic<L> {

@@ -41,7 +41,7 @@ impl<const P: usize> Section<P> {
         node.is_multiple_of(self.r.functions())
     }
 
-    /// Let full neighbours carry the cells that hold less than `least_fill` of their area, given the area of material in
+    /// Extends full cells over their neighbours that hold less than `least_fill` of their area, given the area of material in
     /// each cell.
     pub fn carry(&mut self, area: &[f64], least_fill: f64) {
         let size = |(a, b): (f64, f64)| b - a;

@@ -1,4 +1,4 @@
-//! Whole scenes in LAMMPS and LIGGGHTS: an oedometer exported, run there, and held against the bed that runs here.
+//! Whole scenes in LAMMPS and LIGGGHTS: an oedometer exported, run there, and compared with the bed that runs here.
 
 use crate::codes::exported::Installed;
 use crate::codes::{self, assert_close, solder, succeed};

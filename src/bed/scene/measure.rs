@@ -33,7 +33,7 @@ pub enum Measure {
 pub struct Plane {
     /// Height, m.
     pub height: f64,
-    /// Orifice the flow comes out of, to be held against Beverloo.
+    /// Orifice the flow comes out of, to be compared with Beverloo's law.
     pub orifice: Option<Orifice>,
 }
 

@@ -87,7 +87,7 @@ pub struct TimeStep {
     pub rayleigh_fraction: f64,
     /// Least number of steps in the half oscillation of a grain on its stiffest contact.
     pub steps_per_contact: f64,
-    /// The scene's own time step, s: used as it is, and held against the two limits.
+    /// The scene's own time step, s: used as it is, and checked against the two limits.
     pub step: Option<f64>,
 }
 

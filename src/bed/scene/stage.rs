@@ -26,9 +26,9 @@ pub enum Stage {
     Compress {
         /// Speed, m/s.
         speed: f64,
-        /// Stress on the piston from which on, once it lasts, strain is counted, Pa.
+        /// Piston stress that starts the strain measurement, once sustained, Pa.
         seating_stress: f64,
-        /// Way of the piston (m) on which that stress must last: a few grains above the rest carry more for a while, then
+        /// Piston travel (m) over which that stress must be sustained: a few grains above the rest carry more for a while, then
         /// give way.
         seating_travel: f64,
         /// Strain at which the stage ends.

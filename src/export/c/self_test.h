@@ -1,5 +1,5 @@
 #ifdef LAW_SELF_TEST
-/* Impacts below, integrated with the velocity Verlet method and held against figures that impactlaw integrated in another
+/* Impacts below, integrated with the velocity Verlet method and compared with figures that impactlaw integrated in another
    way (quadrature over the branches). Prints one line an impact; the program returns the number of figures that miss.
        cc -std=c99 -O2 -DLAW_SELF_TEST -x c @FILE@ -lm -o self_test && ./self_test */
 #include <stdio.h>

@@ -1,4 +1,4 @@
-//! Impacts of the reference run in another code by its example input, and held against the law's own figures.
+//! Impacts of the reference run in another code by its example input, and compared with the law's own figures.
 
 use super::process::{Ran, run};
 use super::{Agreement, largest};

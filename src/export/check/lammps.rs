@@ -1,4 +1,4 @@
-//! Check of the LAMMPS export: the plugin loaded into the installed program, impacts held against the law.
+//! Check of the LAMMPS export: the plugin loaded into the installed program, impacts compared with the law.
 
 use super::process::find_program;
 use super::{Check, Finding, impacts};

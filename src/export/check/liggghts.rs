@@ -1,4 +1,4 @@
-//! Check of the LIGGGHTS export: the library loaded into the installed program, impacts held against the law.
+//! Check of the LIGGGHTS export: the library loaded into the installed program, impacts compared with the law.
 
 use super::process::find_program;
 use super::{Check, Finding, impacts};

@@ -1,4 +1,4 @@
-//! Check: the exported law compiled and run in the codes that are installed, held against the law itself.
+//! Check: the exported law compiled and run in the codes that are installed, compared with the law itself.
 
 mod c;
 pub mod driver;

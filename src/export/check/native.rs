@@ -1,4 +1,4 @@
-//! Check of the native lines: impacts in the installed codes, held against what the projection predicts.
+//! Check of the native lines: impacts in the installed codes, compared with what the projection predicts.
 
 use super::impacts::Found;
 use super::process::{find_program, run};
