@@ -1,4 +1,4 @@
-//! Tape: what a run in progress knows, as a row of numbers, so that it can be stopped and taken up again bit by bit.
+//! Tape: the state of a run in progress as a row of numbers, so that it can be stopped and resumed bit for bit.
 //!
 //! Only what changes is kept; grid, points and couplings are built again from the plan, and the file names the plan and the
 //! program it belongs to. Numbers are kept as their bits.

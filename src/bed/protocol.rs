@@ -116,7 +116,7 @@ pub struct Done {
     pub gauges: Box<[Gauge]>,
     /// The bed at the end of the last compression.
     pub deepest: Option<Frame>,
-    /// Seconds the run took before it was taken up.
+    /// Seconds the run took before it was resumed.
     pub seconds_before: f64,
 }
 

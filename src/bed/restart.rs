@@ -1,4 +1,4 @@
-//! Restart: all that a bed in progress knows, on a tape, taken up again bit by bit.
+//! Restart: the whole state of a bed in progress on a tape, to be resumed bit for bit.
 //!
 //! Laws, shapes and settings are not kept: they are built again from the scene. Neighbour lists and the parts of every
 //! sum are, since a list made at another time would sum the same numbers in another order.

@@ -34,7 +34,7 @@ pub struct Options<'a> {
     pub provenance: &'a str,
     /// Seed instead of the scene's.
     pub seed: Option<u64>,
-    /// How often a run under way is kept, so that the same call goes on after an interruption; never if none.
+    /// How often a run saves a checkpoint, from which the same call resumes after an interruption; never if none.
     pub checkpoint: Option<Duration>,
     /// Told what is being run, and of every row.
     pub progress: &'a (dyn Fn(&str, &Row) + Sync),
@@ -192,7 +192,7 @@ fn go<'a>(
         let path = checkpoint.path().display();
         match run.keep_by(Keeper::new(checkpoint, plan)) {
             TakenUp::Nothing => {}
-            TakenUp::Run => tracing::info!("taken up at step {} from {path}", run.bed.clock().2),
+            TakenUp::Run => tracing::info!("resumed at step {} from {path}", run.bed.clock().2),
             TakenUp::Other => {
                 tracing::warn!("{path} is of another scene, law, seed or program: started anew");
             }

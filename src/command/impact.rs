@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use std::path::Path;
 use std::time::Duration;
 
-/// How often a run under way is kept where nothing else is asked for.
+/// How often a run saves a checkpoint unless told otherwise.
 pub const CHECKPOINT: Duration = Duration::from_secs(30);
 /// The file it is kept in, beside the results to come; gone when they are there.
 pub const CHECKPOINT_FILE: &str = "checkpoint.bin";

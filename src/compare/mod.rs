@@ -1,8 +1,8 @@
 //! Comparison: contact laws compared with simulated impacts, as rows, `compare.csv` and a Markdown table.
 //!
 //! Each law is judged twice. *Impact*: the 1-D impact of the law at the same speed gives F*, delta*, delta_res, e
-//! and the contact time. *Curve*: the law is led along the displacements of the simulated impact and its force held
-//! against the simulated one.
+//! and the contact time. *Curve*: the law follows the displacements of the simulated impact and its force is compared
+//! with the simulated one.
 
 mod misfit;
 mod row;

@@ -62,7 +62,7 @@ pub fn named(text: &str, law: &Portable) -> String {
         .replace("LAW_", &format!("{}_", identifier.to_uppercase()))
 }
 
-/// A double that C reads back bit by bit; in brackets if negative, so that it can stand anywhere in an expression.
+/// A double that C reads back bit for bit; in brackets if negative, so that it can stand anywhere in an expression.
 #[must_use]
 pub fn number(value: f64) -> String {
     match value < 0.0 {

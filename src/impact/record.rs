@@ -129,7 +129,7 @@ pub struct Record {
     pub points: usize,
     /// Steps.
     pub steps: u64,
-    /// Wall time before the run was taken up from a checkpoint, s.
+    /// Wall time before the run was resumed from a checkpoint, s.
     pub seconds_before: f64,
     /// Memory of points and nodes, bytes.
     pub memory_bytes: usize,

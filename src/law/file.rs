@@ -35,7 +35,7 @@ pub enum Form {
     Spline,
 }
 
-/// A law file. Numbers survive writing and reading bit by bit.
+/// A law file. Numbers survive writing and reading bit for bit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LawFile {

@@ -1,4 +1,4 @@
-//! Checkpoint: where a run under way is kept, and how it is taken up again by the same plan and program only.
+//! Checkpoint: the file that holds a run under way, resumed by the same plan and program only.
 
 use super::{Keep, Tape};
 use crate::files::write_atomic;
@@ -59,7 +59,7 @@ pub struct Keeper<'a> {
     key: [u64; 4],
     last: Instant,
     started: Instant,
-    /// Seconds that the run had taken when it was taken up.
+    /// Seconds that the run had taken when it was resumed.
     before: f64,
 }
 
@@ -80,7 +80,7 @@ impl<'a> Keeper<'a> {
         }
     }
 
-    /// Seconds the run took before it was taken up.
+    /// Seconds the run took before it was resumed.
     pub fn seconds_before(&self) -> f64 {
         self.before
     }
@@ -149,7 +149,7 @@ impl<'a> Keeper<'a> {
 
     /// Forget the run, which has ended.
     pub fn forget(&self) {
-        // a file that stays does no harm: it is taken up only by the same run, which ends as it did
+        // a file that stays does no harm: it is resumed only by the same run, which ends as it did
         let _ = std::fs::remove_file(&self.checkpoint.path);
     }
 }

@@ -1,4 +1,4 @@
-//! Restart: a bed taken up from a tape goes on with the same bits as one that was never stopped.
+//! Restart: a bed resumed from a tape goes on with the same bits as one that was never stopped.
 
 use impactlaw::bed::bodies::{Body, Freedom, Mobility, Solid};
 use impactlaw::bed::damping::Viscous;
@@ -156,7 +156,7 @@ fn a_bed_taken_up_at_any_step_ends_with_the_same_bits() {
         assert_eq!(
             tape(&again),
             tape(&whole),
-            "what was taken up is not what was kept"
+            "what was resumed is not what was kept"
         );
         run(&mut whole, 700);
         assert_eq!(tape(&resumed), tape(&whole), "after {steps} steps");

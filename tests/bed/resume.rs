@@ -107,7 +107,7 @@ fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
 fn a_scene_stopped_three_times_ends_with_the_same_files() {
     let (whole, stopped) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
     assert!(run(SCENE, whole.path(), WHOLE));
-    // in the packing; under the first law; under the second one, the first being taken up as ended
+    // in the packing; under the first law; under the second one, the first being resumed as ended
     for (run_under_way, rows) in [("packing", 9), ("hertz", 7), ("thornton", 5)] {
         assert!(!run(SCENE, stopped.path(), (run_under_way, rows)));
         let kept = stopped

@@ -1,6 +1,6 @@
 //! Interrupted beds through the real binary: killed, called again, they end with the same bits.
 
-use crate::killed::{body, kill_once_kept, was_taken_up};
+use crate::killed::{body, kill_once_kept, was_resumed};
 use crate::program::program;
 use std::path::Path;
 use std::process::Command;
@@ -62,9 +62,9 @@ fn a_killed_bed_goes_on_where_it_was_and_ends_with_the_same_bits() {
     kill_once_kept(bed(killed.path()), &kept);
     assert!(!results(killed.path()).join("thornton/bed.csv").exists());
 
-    assert!(was_taken_up(bed(killed.path())));
+    assert!(was_resumed(bed(killed.path())));
     assert!(!kept.exists());
-    assert!(!was_taken_up(bed(whole.path())));
+    assert!(!was_resumed(bed(whole.path())));
     for name in ["packing/bed.csv", "thornton/bed.csv", "thornton/bodies.csv"] {
         let body = |folder: &Path| body(&results(folder).join(name));
         assert_eq!(body(killed.path()), body(whole.path()), "{name}");

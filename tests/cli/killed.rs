@@ -22,12 +22,12 @@ pub fn kill_once_kept(mut command: Command, kept: &Path) {
     child.wait().unwrap();
 }
 
-/// Runs the command to its end; whether it was taken up from what had been kept.
-pub fn was_taken_up(mut command: Command) -> bool {
+/// Runs the command to its end; whether it resumed from what had been kept.
+pub fn was_resumed(mut command: Command) -> bool {
     let output = command.output().unwrap();
     let said = message(&output);
     assert!(output.status.success(), "{said}");
-    said.contains("taken up at step")
+    said.contains("resumed at step")
 }
 
 /// A results file without its first line, which names the command.

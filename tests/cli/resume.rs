@@ -1,6 +1,6 @@
 //! Interrupted impacts through the real binary: killed, called again, they end with the same bits.
 
-use crate::killed::{body, kill_once_kept, was_taken_up};
+use crate::killed::{body, kill_once_kept, was_resumed};
 use crate::program::{impactlaw, message, program};
 use std::path::Path;
 use std::process::Command;
@@ -38,9 +38,9 @@ fn a_killed_impact_goes_on_where_it_was_and_ends_with_the_same_bits() {
     kill_once_kept(impact(killed.path()), &kept);
     assert!(!results(killed.path()).join("curve.csv").exists());
 
-    assert!(was_taken_up(impact(killed.path())));
+    assert!(was_resumed(impact(killed.path())));
     assert!(!kept.exists());
-    assert!(!was_taken_up(impact(whole.path())));
+    assert!(!was_resumed(impact(whole.path())));
     for name in [
         "curve.csv",
         "particle_compressed.csv",
@@ -58,7 +58,7 @@ fn a_checkpoint_of_another_impact_is_not_taken_up() {
     let place = folder.path().join("results/impact_V60");
     std::fs::create_dir_all(&place).unwrap();
     std::fs::write(place.join("checkpoint.bin"), [7u8; 4096]).unwrap();
-    assert!(!was_taken_up(impact(folder.path())));
+    assert!(!was_resumed(impact(folder.path())));
     assert!(!place.join("checkpoint.bin").exists());
 }
 

@@ -1,4 +1,4 @@
-//! Law files: what they look like, that they survive a round trip bit by bit, and what they refuse.
+//! Law files: what they look like, that they survive a round trip bit for bit, and what they refuse.
 
 use impactlaw::contact::NormalLaw;
 use impactlaw::contact::unloading::Unloading;

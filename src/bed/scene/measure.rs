@@ -1,4 +1,4 @@
-//! Measures of a scene: what is to be found out beside the usual series.
+//! Measures of a scene: what to find out beside the usual series.
 
 use super::group::{RegionTable, vector};
 use crate::Result;

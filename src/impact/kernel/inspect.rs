@@ -43,7 +43,7 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Keep for Points<S, M, N> {
                 ..cell
             })
         };
-        // a run that is taken up has its cells in the order in which they were laid
+        // a resumed run has its cells in the order in which they were laid
         self.cells = left.iter().map(kept).collect::<Option<_>>()?;
         let mut ends: Vec<usize> = Vec::new();
         ends.load(tape)?;

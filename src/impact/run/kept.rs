@@ -1,4 +1,4 @@
-//! Runs with levels of steps are taken up bit by bit.
+//! Runs with levels of steps resume bit for bit.
 
 use super::Run;
 use crate::impact::contact::Contact;

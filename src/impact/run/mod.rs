@@ -148,12 +148,12 @@ where
     }
 
     /// Run the impacts of the plan one after the other; those after one that did not end well are left out. A single impact
-    /// is kept by `keeper` while it is under way, and taken up where one was kept.
+    /// is kept by `keeper` while it is under way, and resumed where one was kept.
     pub(super) fn finish(mut self, mut keeper: Option<Keeper>) -> Vec<Record> {
         if let Some(keeper) = &mut keeper
             && keeper.take_up(&mut self)
         {
-            tracing::info!("taken up at step {}", self.step);
+            tracing::info!("resumed at step {}", self.step);
         }
         let mut records = Vec::with_capacity(self.plan.impacts);
         loop {
