@@ -1,51 +1,22 @@
 //! Fit to impacts made from a known law: it comes back, at left-out speeds too, the same on any number of threads.
 
-use impactlaw::case::Case;
+use crate::impacts::{ELASTIC, MATERIAL, RADIUS, case, sample, summary, yielding_at};
 use impactlaw::contact::NormalLaw;
 use impactlaw::contact::elastoplastic::{ClosedForm, Elastoplastic};
 use impactlaw::contact::loading::SoftenedHertz;
 use impactlaw::contact::rebound::rebound;
 use impactlaw::contact::unloading::Unloading;
-use impactlaw::curve::{Curve, Impact, Sample, Status, Summary};
+use impactlaw::curve::{Curve, Impact, Status};
 use impactlaw::fit::pulse::Pulse;
 use impactlaw::fit::run::Scale;
 use impactlaw::fit::{Fit, Outcome, THRESHOLD, fit};
-use impactlaw::material::{Flow, Material};
 use impactlaw::theory::hertz::Hertz;
 use std::sync::LazyLock;
 
-const RADIUS: f64 = 250e-6;
 const SPEEDS: [f64; 5] = [5.0, 10.0, 20.0, 30.0, 50.0];
 
-fn material(yield_strength: Option<f64>) -> Material {
-    Material {
-        density: 8000.0,
-        young_modulus: 100e9,
-        poisson_ratio: 0.35,
-        flow: yield_strength.map(|yield_strength| Flow {
-            yield_strength,
-            hardening_modulus: 0.0,
-        }),
-    }
-}
-
-fn case(material: Material) -> Case {
-    Case {
-        name: "synthetic".into(),
-        path: "synthetic.toml".into(),
-        hash: "0".repeat(64),
-        radius: RADIUS,
-        material,
-        velocities: SPEEDS.to_vec(),
-        tolerance: 0.02,
-        angle: 0.0,
-        friction: 0.0,
-        bed: None,
-    }
-}
-
 fn known() -> ClosedForm {
-    let scale = Scale::of(&material(Some(1.25e9)), RADIUS).unwrap();
+    let scale = Scale::of(&MATERIAL, RADIUS).unwrap();
     let curve = SoftenedHertz::new(0.5, 11.0, 1.1).unwrap();
     let unloading = Unloading::new(9.0, 0.65, -0.2, 7.0).unwrap();
     Elastoplastic::new(curve, unloading, scale.units(), 0.1).unwrap()
@@ -57,19 +28,6 @@ fn moving() -> ClosedForm {
 }
 
 const KAPPA: f64 = 12.0;
-
-fn sample(displacement: f64, force: f64) -> Sample {
-    Sample {
-        time_s: 0.0,
-        displacement_m: displacement,
-        centre_displacement_m: displacement,
-        force_n: force,
-        contact_radius_m: 0.0,
-        kinetic_j: 0.0,
-        elastic_j: 0.0,
-        plastic_j: 0.0,
-    }
-}
 
 /// Squared rate of approach at flattenings from 0 to `turn`, by small Runge-Kutta steps of m delta'' = -F.
 fn squared_rates<L: NormalLaw>(law: &L, velocity: f64, mass: f64, at: &[f64]) -> Vec<f64> {
@@ -114,36 +72,20 @@ fn impact<L: NormalLaw>(law: &L, velocity: f64, mass: f64) -> Impact {
         .map(|(d, v2)| {
             let core = law.force(d / RADIUS, &mut history);
             let added = law.inertia().force(d / RADIUS, v2);
-            sample(d, (core + added) * RADIUS * RADIUS)
+            sample(0.0, d, (core + added) * RADIUS * RADIUS)
         })
         .collect();
     Impact {
-        summary: Summary {
-            velocity_m_s: velocity,
-            restitution: hit.restitution,
-            max_force_n: hit.max_force,
-            max_displacement_m: most,
-            max_centre_displacement_m: most,
-            residual_displacement_m: left,
-            contact_time_s: hit.contact_time,
-            compression_ratio: 0.0,
-            height_at_max_compression_ratio: 0.0,
-            equivalent_plastic_strain: 0.0,
-            plastic_work_ratio: 0.0,
-            energy_closure: 0.0,
-            eroded_volume_ratio: 0.0,
-            points: 0,
-            steps: 0,
-            wall_s: 0.0,
-            tangential: None,
-            status: Status::Ok,
-        },
+        summary: summary(
+            velocity,
+            [hit.max_force, most, hit.restitution, left, hit.contact_time],
+        ),
         curve: Curve { samples },
     }
 }
 
 fn impacts() -> Vec<Impact> {
-    let mass = material(None).sphere_mass(RADIUS);
+    let mass = ELASTIC.sphere_mass(RADIUS);
     SPEEDS.map(|v| impact(&known(), v, mass)).to_vec()
 }
 
@@ -151,7 +93,7 @@ fn impacts() -> Vec<Impact> {
 static FITTED: LazyLock<Fit> = LazyLock::new(fitted);
 
 fn fitted() -> Fit {
-    fit(&case(material(Some(1.25e9))), &impacts()).unwrap()
+    fit(&case(MATERIAL, &SPEEDS), &impacts()).unwrap()
 }
 
 #[test]
@@ -219,9 +161,9 @@ fn inertia_comes_back_where_there_is_some_and_is_left_out_where_there_is_none() 
         panic!("the impacts yield");
     };
     assert!(closed_form.law.inertia().is_none() && spline.law.inertia().is_none());
-    let mass = material(None).sphere_mass(RADIUS);
+    let mass = ELASTIC.sphere_mass(RADIUS);
     let impacts = SPEEDS.map(|v| impact(&moving(), v, mass));
-    let fit = fit(&case(material(Some(1.25e9))), &impacts).unwrap();
+    let fit = fit(&case(MATERIAL, &SPEEDS), &impacts).unwrap();
     let Outcome::Yielding {
         closed_form,
         spline,
@@ -277,11 +219,11 @@ fn the_fit_is_the_same_on_one_thread_and_on_two() {
 
 #[test]
 fn nothing_yields_below_the_yield_speed_or_without_yield_strength() {
-    let mass = material(None).sphere_mass(RADIUS);
-    for material in [material(None), material(Some(20e9))] {
+    let mass = ELASTIC.sphere_mass(RADIUS);
+    for material in [ELASTIC, yielding_at(20e9)] {
         let law = Hertz::of(&material);
         let impacts: Vec<Impact> = [1.0, 5.0].map(|v| impact(&law, v, mass)).to_vec();
-        let fit = fit(&case(material), &impacts).unwrap();
+        let fit = fit(&case(material, &SPEEDS), &impacts).unwrap();
         let Outcome::Elastic {
             law: fitted,
             quality,
@@ -303,12 +245,12 @@ fn nothing_yields_below_the_yield_speed_or_without_yield_strength() {
 fn impacts_that_did_not_rebound_are_left_out_and_named() {
     let mut impacts = impacts();
     impacts[2].summary.status = Status::NoRebound;
-    let fit = fit(&case(material(Some(1.25e9))), &impacts).unwrap();
+    let fit = fit(&case(MATERIAL, &SPEEDS), &impacts).unwrap();
     assert_eq!(fit.skipped, [20.0]);
     for i in &mut impacts {
         i.summary.status = Status::Failed("energy grew".into());
     }
-    let error = impactlaw::fit::fit(&case(material(Some(1.25e9))), &impacts).unwrap_err();
+    let error = impactlaw::fit::fit(&case(MATERIAL, &SPEEDS), &impacts).unwrap_err();
     assert!(
         error.to_string().contains("none of the impacts rebounded"),
         "{error}"
@@ -317,7 +259,7 @@ fn impacts_that_did_not_rebound_are_left_out_and_named() {
 
 #[test]
 fn the_fast_pulse_of_the_fit_is_the_rebound_of_the_law() {
-    let scale = Scale::of(&material(Some(1.25e9)), RADIUS).unwrap();
+    let scale = Scale::of(&MATERIAL, RADIUS).unwrap();
     let speeds = [0.5, 5.0, 50.0];
     for (law, velocity) in [known(), moving()]
         .iter()
@@ -341,7 +283,7 @@ fn the_fast_pulse_of_the_fit_is_the_rebound_of_the_law() {
 
 #[test]
 fn impacts_just_above_the_yield_speed_are_fitted() {
-    let strong = material(Some(8e9));
+    let strong = yielding_at(8e9);
     let scale = Scale::of(&strong, RADIUS).unwrap();
     let curve = SoftenedHertz::new(1.0, 12.0, 1.0).unwrap();
     let unloading = Unloading::new(8.0, 0.6, -0.1, 7.0).unwrap();
@@ -349,7 +291,7 @@ fn impacts_just_above_the_yield_speed_are_fitted() {
     let v_y = strong.yield_point(RADIUS, 1.6).unwrap().velocity;
     for factor in [1.01, 1.3, 2.0, 5.0] {
         let impacts = [0.5 * v_y, factor * v_y].map(|v| impact(&law, v, scale.mass));
-        let fit = fit(&case(strong), &impacts).unwrap();
+        let fit = fit(&case(strong, &SPEEDS), &impacts).unwrap();
         let Outcome::Yielding {
             closed_form,
             spline,

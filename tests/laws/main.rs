@@ -2,6 +2,7 @@
 
 mod fit_finite_element;
 mod fit_synthetic;
+mod impacts;
 mod law_file;
 mod law_guarantees;
 mod rebound_inertia;

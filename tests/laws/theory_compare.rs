@@ -1,108 +1,20 @@
 //! Comparison against the independent finite-element impacts of `tests/data/reference` (E/Y = 80, 10 and 50 m/s).
 
+use crate::impacts::{ELASTIC, MATERIAL, RADIUS, references, sample, summary};
 use impactlaw::case::Case;
 use impactlaw::cli::{CompareArgs, FitArgs};
 use impactlaw::command::{Context, compare, fit};
 use impactlaw::compare::{Comparison, Row, SIMULATION};
 use impactlaw::contact::NormalLaw;
 use impactlaw::contact::rebound::{rebound, trajectory};
-use impactlaw::curve::{Curve, Impact, Sample, Status, Summary};
-use impactlaw::material::{Flow, Material};
+use impactlaw::curve::{Curve, Impact, Status};
 use impactlaw::theory::Theory;
 use impactlaw::theory::thornton::Thornton;
 use std::path::Path;
 
-const RADIUS: f64 = 250e-6;
-
-fn material() -> Material {
-    Material {
-        density: 8000.0,
-        young_modulus: 100e9,
-        poisson_ratio: 0.35,
-        flow: Some(Flow {
-            yield_strength: 1.25e9,
-            hardening_modulus: 0.0,
-        }),
-    }
-}
-
-fn summary(velocity: f64, figures: [f64; 5]) -> Summary {
-    let [
-        max_force_n,
-        max_displacement_m,
-        restitution,
-        residual_displacement_m,
-        contact_time_s,
-    ] = figures;
-    Summary {
-        velocity_m_s: velocity,
-        restitution,
-        max_force_n,
-        max_displacement_m,
-        max_centre_displacement_m: max_displacement_m,
-        residual_displacement_m,
-        contact_time_s,
-        compression_ratio: 0.0,
-        height_at_max_compression_ratio: 1.0,
-        equivalent_plastic_strain: 0.0,
-        plastic_work_ratio: 0.0,
-        energy_closure: 0.0,
-        eroded_volume_ratio: 0.0,
-        points: 0,
-        steps: 0,
-        wall_s: 0.0,
-        tangential: None,
-        status: Status::Ok,
-    }
-}
-
-fn sample(time_s: f64, displacement_m: f64, force_n: f64) -> Sample {
-    Sample {
-        time_s,
-        displacement_m,
-        centre_displacement_m: displacement_m,
-        force_n,
-        contact_radius_m: 0.0,
-        kinetic_j: 0.0,
-        elastic_j: 0.0,
-        plastic_j: 0.0,
-    }
-}
-
-/// A reference file: columns time, displacement of the centre of mass, of the centre, force, ...
-fn reference(name: &str, summary: Summary) -> Impact {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("tests/data/reference")
-        .join(name);
-    let mut reader = csv::Reader::from_path(path).unwrap();
-    let number = |row: &csv::StringRecord, i: usize| row[i].parse::<f64>().unwrap();
-    let samples = reader
-        .records()
-        .map(|row| row.unwrap())
-        .map(|row| sample(number(&row, 0), number(&row, 1), number(&row, 3)))
-        .collect();
-    Impact {
-        summary,
-        curve: Curve { samples },
-    }
-}
-
-fn references() -> Vec<Impact> {
-    vec![
-        reference(
-            "fe_impact_EY80_V10.csv",
-            summary(10.0, [14.72, 4.099e-6, 0.6425, 2.321e-6, 1.030e-6]),
-        ),
-        reference(
-            "fe_impact_EY80_V50.csv",
-            summary(50.0, [76.4, 17.51e-6, 0.3923, 13.87e-6, 0.809e-6]),
-        ),
-    ]
-}
-
 /// The impact a law makes, as if it had been simulated.
 fn made_by<L: NormalLaw>(law: &L, velocity: f64) -> Impact {
-    let mass = material().sphere_mass(RADIUS);
+    let mass = MATERIAL.sphere_mass(RADIUS);
     let hit = rebound(law, RADIUS, mass, velocity);
     let path = trajectory(law, RADIUS, mass, velocity);
     Impact {
@@ -133,9 +45,9 @@ fn row<'a>(rows: &'a [Row], law: &str, velocity: f64) -> &'a Row {
 
 #[test]
 fn a_law_compared_with_its_own_impact_has_no_error() {
-    let law = Thornton::of(&material(), 1.6).unwrap();
+    let law = Thornton::of(&MATERIAL, 1.6).unwrap();
     let mut comparison = Comparison::new(
-        &material(),
+        &MATERIAL,
         RADIUS,
         &[made_by(&law, 10.0), made_by(&law, 50.0)],
     );
@@ -149,12 +61,12 @@ fn a_law_compared_with_its_own_impact_has_no_error() {
 
 #[test]
 fn a_constant_force_gap_is_its_own_misfit() {
-    let law = Thornton::of(&material(), 1.6).unwrap();
+    let law = Thornton::of(&MATERIAL, 1.6).unwrap();
     let mut impact = made_by(&law, 10.0);
     for sample in &mut impact.curve.samples {
         sample.force_n += 0.1 * impact.summary.max_force_n;
     }
-    let mut comparison = Comparison::new(&material(), RADIUS, &[impact]);
+    let mut comparison = Comparison::new(&MATERIAL, RADIUS, &[impact]);
     comparison.add("itself", &law);
     let row = row(comparison.rows(), "itself", 10.0);
     for misfit in [
@@ -168,7 +80,7 @@ fn a_constant_force_gap_is_its_own_misfit() {
 
 #[test]
 fn theories_stand_to_the_finite_element_impacts_as_known() {
-    let mut comparison = Comparison::new(&material(), RADIUS, &references());
+    let mut comparison = Comparison::new(&MATERIAL, RADIUS, &references());
     comparison.add_theories();
     let rows = comparison.rows();
     assert_eq!(rows.len(), 2 * (1 + Theory::ALL.len()));
@@ -192,9 +104,9 @@ fn theories_stand_to_the_finite_element_impacts_as_known() {
 
 #[test]
 fn files_hold_every_row_and_the_table_names_what_was_left_out() {
-    let mut impacts = references();
+    let mut impacts = references().to_vec();
     impacts[1].summary.status = Status::NoRebound;
-    let mut comparison = Comparison::new(&material(), RADIUS, &impacts);
+    let mut comparison = Comparison::new(&MATERIAL, RADIUS, &impacts);
     comparison.add_theories();
     let folder = tempfile::tempdir().unwrap();
     comparison.write(folder.path(), "made by a test").unwrap();
@@ -219,9 +131,7 @@ fn files_hold_every_row_and_the_table_names_what_was_left_out() {
 
 #[test]
 fn an_elastic_body_is_compared_with_hertz_alone() {
-    let mut elastic = material();
-    elastic.flow = None;
-    let mut comparison = Comparison::new(&elastic, RADIUS, &references());
+    let mut comparison = Comparison::new(&ELASTIC, RADIUS, &references());
     comparison.add_theories();
     let laws: Vec<_> = comparison
         .rows()
@@ -235,7 +145,7 @@ fn an_elastic_body_is_compared_with_hertz_alone() {
 #[test]
 fn the_command_goes_from_impact_folders_and_a_law_file_to_both_files() {
     let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/thesis-4-4.toml");
-    assert_eq!(Case::read(&case).unwrap().material, material());
+    assert_eq!(Case::read(&case).unwrap().material, MATERIAL);
     let folder = tempfile::tempdir().unwrap();
     let impacts = folder.path().to_owned();
     for impact in references() {

@@ -1,29 +1,18 @@
 //! Rebound against closed forms: the elastic impact of Hertz (Johnson 1985, section 11.4) and a bilinear contact.
 
+use crate::impacts::{ELASTIC, RADIUS};
 use approx::assert_relative_eq;
 use impactlaw::contact::NormalLaw;
 use impactlaw::contact::rebound::{rebound, trajectory};
-use impactlaw::material::Material;
 use impactlaw::theory::hertz::Hertz;
 use std::f64::consts::PI;
 
-const RADIUS: f64 = 250e-6;
-
-fn material() -> Material {
-    Material {
-        density: 8000.0,
-        young_modulus: 100e9,
-        poisson_ratio: 0.35,
-        flow: None,
-    }
-}
-
 #[test]
 fn hertz_impact_meets_the_closed_form() {
-    let (law, mass) = (Hertz::of(&material()), material().sphere_mass(RADIUS));
+    let (law, mass) = (Hertz::of(&ELASTIC), ELASTIC.sphere_mass(RADIUS));
     for velocity in [1e-6, 1e-2, 10.0, 1000.0] {
         let hit = rebound(&law, RADIUS, mass, velocity);
-        let e_star = material().contact_modulus();
+        let e_star = ELASTIC.contact_modulus();
         let delta = (15.0 * mass * velocity * velocity / (16.0 * e_star * RADIUS.sqrt())).powf(0.4);
         assert_relative_eq!(hit.max_displacement, delta, max_relative = 1e-12);
         let force = 4.0 / 3.0 * e_star * RADIUS.sqrt() * delta.powf(1.5);
@@ -100,7 +89,7 @@ fn linear_springs_take_two_quarter_periods() {
 
 #[test]
 fn trajectory_obeys_newton_and_ends_with_the_rebound_speed() {
-    let (law, mass) = (Hertz::of(&material()), material().sphere_mass(RADIUS));
+    let (law, mass) = (Hertz::of(&ELASTIC), ELASTIC.sphere_mass(RADIUS));
     let hit = rebound(&law, RADIUS, mass, 10.0);
     let path = trajectory(&law, RADIUS, mass, 10.0);
     assert!(path.len() >= 16);

@@ -3,26 +3,12 @@
 //! The force values come from an independent evaluation of the published formulas in 40-digit arithmetic, restitutions from a
 //! high-order integration in time.
 
+use crate::impacts::{MATERIAL, RADIUS};
 use approx::assert_relative_eq;
 use impactlaw::contact::rebound::{Rebound, rebound};
 use impactlaw::contact::{LawVisitor, NormalLaw};
-use impactlaw::material::{Flow, Material};
 use impactlaw::theory::{Theory, wu_li_thornton};
 use std::f64::consts::PI;
-
-const RADIUS: f64 = 250e-6;
-
-fn material() -> Material {
-    Material {
-        density: 8000.0,
-        young_modulus: 100e9,
-        poisson_ratio: 0.35,
-        flow: Some(Flow {
-            yield_strength: 1.25e9,
-            hardening_modulus: 0.0,
-        }),
-    }
-}
 
 /// Force in N at delta/R, after an optional largest delta/R.
 struct Force(f64, Option<f64>);
@@ -43,7 +29,7 @@ struct Impact(f64);
 impl LawVisitor for Impact {
     type Output = Rebound;
     fn visit<L: NormalLaw>(self, law: &L) -> Rebound {
-        rebound(law, RADIUS, material().sphere_mass(RADIUS), self.0)
+        rebound(law, RADIUS, MATERIAL.sphere_mass(RADIUS), self.0)
     }
 }
 
@@ -69,11 +55,11 @@ impl LawVisitor for Residual {
 }
 
 fn force(theory: Theory, x: f64, peak: Option<f64>) -> f64 {
-    theory.visit(&material(), Force(x, peak)).unwrap()
+    theory.visit(&MATERIAL, Force(x, peak)).unwrap()
 }
 
 fn restitution(theory: Theory, velocity: f64) -> f64 {
-    let hit = theory.visit(&material(), Impact(velocity)).unwrap();
+    let hit = theory.visit(&MATERIAL, Impact(velocity)).unwrap();
     hit.restitution
 }
 
@@ -153,7 +139,7 @@ fn unloading_branches_equal_the_check_numbers() {
         (Theory::JacksonGreen, 0.035921364895, 27.025198760),
     ];
     for (theory, residual, value) in rows {
-        let got = theory.visit(&material(), Residual(0.05)).unwrap();
+        let got = theory.visit(&MATERIAL, Residual(0.05)).unwrap();
         assert_relative_eq!(got, residual, max_relative = 1e-9);
         assert_relative_eq!(force(theory, 0.045, Some(0.05)), value, max_relative = 1e-9);
     }
@@ -184,7 +170,7 @@ fn yield_points_equal_the_check_numbers() {
         ),
     ];
     for (ratio, displacement, force, velocity) in rows {
-        let point = material().yield_point(RADIUS, ratio).unwrap();
+        let point = MATERIAL.yield_point(RADIUS, ratio).unwrap();
         assert_relative_eq!(point.displacement, displacement, max_relative = 1e-9);
         assert_relative_eq!(point.force, force, max_relative = 1e-9);
         assert_relative_eq!(point.velocity, velocity, max_relative = 1e-9);
@@ -239,12 +225,10 @@ fn closed_forms_equal_the_table() {
     ];
     for (i, velocity) in [10.0, 20.0, 30.0, 40.0, 50.0].into_iter().enumerate() {
         for (theory, values) in rows {
-            let e = theory
-                .restitution_closed_form(&material(), velocity)
-                .unwrap();
+            let e = theory.restitution_closed_form(&MATERIAL, velocity).unwrap();
             assert!((e - values[i]).abs() < 6e-4, "{theory} at {velocity}: {e}");
         }
-        let e = wu_li_thornton::restitution(&material(), velocity);
+        let e = wu_li_thornton::restitution(&MATERIAL, velocity);
         // at 10 m/s the branch of small plastic deformation holds
         let expected = [2.08 * 41.611_f64.powf(-0.25), 0.649, 0.530, 0.459, 0.410][i];
         assert!((e.unwrap() - expected).abs() < 6e-4, "{e:?} at {velocity}");
@@ -262,7 +246,7 @@ fn closed_forms_of_thornton_and_the_springs_equal_the_integral() {
         Theory::Hertz,
     ] {
         for velocity in [0.07, 0.3, 1.0, 10.0, 100.0, 1e4] {
-            if let Some(closed) = theory.restitution_closed_form(&material(), velocity) {
+            if let Some(closed) = theory.restitution_closed_form(&MATERIAL, velocity) {
                 let e = restitution(theory, velocity);
                 assert!(
                     (e / closed - 1.0).abs() < 1e-9,
@@ -278,10 +262,10 @@ fn the_law_of_johnson_is_his_formula_but_for_its_elastic_start() {
     // e^2 = (2/5) F delta_e / (m V^2 / 2) with F = 2 pi R p_d delta. Hertz up to x_c stores pi p_d x_c^2 / 5 less than the
     // plastic line, so delta* grows; without that term the formula is Johnson's with its unrounded constant.
     let p_d = 3.0 * 1.25e9;
-    let e_star = material().contact_modulus();
+    let e_star = MATERIAL.contact_modulus();
     let meeting = (1.5 * PI * p_d / e_star).powi(2);
     for velocity in [20.0, 50.0, 500.0] {
-        let energy = 0.5 * material().sphere_mass(1.0) * velocity * velocity;
+        let energy = 0.5 * MATERIAL.sphere_mass(1.0) * velocity * velocity;
         let start = (1.0 + 0.2 * PI * p_d * meeting * meeting / energy).powf(0.375);
         let prefactor = (0.3 * PI.powf(1.25) * 4.0_f64.powf(0.75)).sqrt();
         let exact = prefactor * (p_d / e_star).sqrt() * (energy / p_d).powf(-0.125);
@@ -290,7 +274,7 @@ fn the_law_of_johnson_is_his_formula_but_for_its_elastic_start() {
             exact * start,
             max_relative = 1e-10
         );
-        let printed = Theory::Johnson.restitution_closed_form(&material(), velocity);
+        let printed = Theory::Johnson.restitution_closed_form(&MATERIAL, velocity);
         assert_relative_eq!(printed.unwrap(), exact * 3.8 / 3.7433, max_relative = 1e-5);
     }
 }
@@ -299,7 +283,7 @@ fn the_law_of_johnson_is_his_formula_but_for_its_elastic_start() {
 fn the_formula_of_jackson_green_marghitu_follows_the_integral() {
     for velocity in [0.5, 1.0, 5.0, 10.0, 50.0, 100.0] {
         let closed = Theory::JacksonGreen
-            .restitution_closed_form(&material(), velocity)
+            .restitution_closed_form(&MATERIAL, velocity)
             .unwrap();
         let e = restitution(Theory::JacksonGreen, velocity);
         assert!(
