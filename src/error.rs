@@ -89,6 +89,19 @@ pub enum Error {
 pub type Result<T> = std::result::Result<T, Error>;
 
 impl Error {
+    /// Refusal of `found` where one of `names` was to be given.
+    pub fn not_one_of<N: AsRef<str>>(
+        argument: &str,
+        found: &str,
+        names: impl IntoIterator<Item = N>,
+    ) -> Error {
+        Error::Argument {
+            argument: argument.to_owned(),
+            found: format!("`{found}`"),
+            allowed: must_be_one_of(names),
+        }
+    }
+
     /// File error with its path; for `map_err`.
     pub fn file(action: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> Error {
         let path = path.to_owned();
@@ -98,4 +111,15 @@ impl Error {
             source,
         }
     }
+}
+
+/// "must be one of ...": what is allowed where a name was to be given.
+#[must_use]
+pub fn must_be_one_of<N: AsRef<str>>(names: impl IntoIterator<Item = N>) -> String {
+    let mut text = "must be one of ".to_owned();
+    for (index, name) in names.into_iter().enumerate() {
+        text.push_str(if index == 0 { "" } else { ", " });
+        text.push_str(name.as_ref());
+    }
+    text
 }

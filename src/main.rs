@@ -1,8 +1,8 @@
 //! Program entry: parse, dispatch, print the error, exit code (0 ok, 1 a result fails a stated threshold, 2 could not run).
 
 use clap::Parser;
-use impactlaw::cli::{Cli, Verb};
-use impactlaw::command::{self, Context, Verdict, diagnostic};
+use impactlaw::cli::Cli;
+use impactlaw::command::{Context, Verdict, diagnostic};
 use impactlaw::{Error, Result};
 use std::process::ExitCode;
 use tracing::Level;
@@ -10,30 +10,13 @@ use tracing::Level;
 fn main() -> ExitCode {
     let cli = Cli::parse();
     trace(&cli);
-    match start_threads(cli.threads).and_then(|()| dispatch(&cli)) {
+    match start_threads(cli.threads).and_then(|()| cli.verb.run(&Context::of_process(cli.quiet))) {
         Ok(Verdict::Met) => ExitCode::SUCCESS,
         Ok(Verdict::Missed) => ExitCode::from(1),
         Err(error) => {
             eprint!("{}", diagnostic::text(&error));
             ExitCode::from(2)
         }
-    }
-}
-
-fn dispatch(cli: &Cli) -> Result<Verdict> {
-    let context = &Context::of_process(cli.quiet);
-    match &cli.verb {
-        Verb::Run(args) => command::run::run(args, context),
-        Verb::Plan(args) => command::plan::run(args, context),
-        Verb::Impact(args) => command::impact::run(args, context),
-        Verb::Fit(args) => command::fit::run(args, context),
-        Verb::Compare(args) => command::compare::run(args, context).map(Verdict::from),
-        Verb::Theory(args) => command::theory::run(args).map(Verdict::from),
-        Verb::Bed(args) => command::bed::run(args, context),
-        Verb::Study(args) => command::study::run(args, context),
-        Verb::Cost(args) => command::cost::run(args, context),
-        Verb::Export(args) => command::export::run(args, context),
-        Verb::Law { verb } => command::law::run(verb, context),
     }
 }
 

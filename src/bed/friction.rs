@@ -207,10 +207,7 @@ fn shear_stiffness(sides: [Option<&Material>; 2]) -> f64 {
     let compliance: f64 = sides
         .into_iter()
         .flatten()
-        .map(|side| {
-            let shear = side.young_modulus / (2.0 * (1.0 + side.poisson_ratio));
-            (2.0 - side.poisson_ratio) / shear
-        })
+        .map(|side| (2.0 - side.poisson_ratio) / side.shear_modulus())
         .sum();
     if compliance > 0.0 {
         8.0 / compliance

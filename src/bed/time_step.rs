@@ -25,7 +25,7 @@ const LONGEST_WAY: f64 = 0.1;
 #[must_use]
 pub fn rayleigh_time(material: &Material, radius: f64) -> f64 {
     let nu = material.poisson_ratio;
-    let shear = material.young_modulus / (2.0 * (1.0 + nu));
+    let shear = material.shear_modulus();
     PI * radius * (material.density / shear).sqrt() / (0.1631 * nu + 0.8766)
 }
 

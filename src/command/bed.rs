@@ -1,35 +1,80 @@
 //! `bed`: a scene file to the files of its beds.
 
+use super::bed_export::BedExportArgs;
 use super::impact::interval;
-use super::{Context, Verdict, bed_export, output_folder, print};
+use super::{Command, Context, Verdict, output_folder, print};
 use crate::bed::gauge::Finding;
 use crate::bed::run::{BedReport, Options, run_scene};
 use crate::bed::scene::{Scene, Stage};
-use crate::cli::{BedArgs, BedRunArgs, BedVerb};
 use crate::law::LawFile;
 use crate::unit::{engineering, significant};
 use crate::{Error, Result};
+use clap::{Args, Subcommand};
 use indicatif::ProgressBar;
 use std::fmt::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// Largest energy imbalance over turnover a run may show.
 const CLOSURE: f64 = 0.01;
 
-/// Run the verb, or the one below it.
-///
-/// # Errors
-/// Those of the scene and law files, of the output folder, of [`run_scene`] and of [`bed_export::run`].
-pub fn run(args: &BedArgs, context: &Context) -> Result<Verdict> {
-    match (&args.verb, &args.run) {
-        (Some(BedVerb::Export(args)), _) => bed_export::run(args, context),
-        (None, Some(args)) => run_here(args, context),
-        (None, None) => Err(Error::Argument {
-            argument: "SCENE".to_owned(),
-            found: "nothing".to_owned(),
-            allowed: "must name a scene file".to_owned(),
-        }),
+/// Run a granular bed from a scene file.
+#[derive(Debug, Args)]
+#[command(
+    args_conflicts_with_subcommands = true,
+    subcommand_negates_reqs = true,
+    arg_required_else_help = true
+)]
+pub struct BedArgs {
+    /// What to do other than run the scene here.
+    #[command(subcommand)]
+    pub verb: Option<BedVerb>,
+    /// The run.
+    #[command(flatten)]
+    pub run: Option<BedRunArgs>,
+}
+
+/// Verbs on a scene.
+#[derive(Debug, Subcommand)]
+#[allow(missing_docs)] // each verb is described by the doc comment of its arguments
+pub enum BedVerb {
+    Export(BedExportArgs),
+}
+
+/// Arguments of a run.
+#[derive(Debug, Args)]
+pub struct BedRunArgs {
+    /// Scene file.
+    pub scene: PathBuf,
+    /// Law file for the grains whose law the scene calls `fitted`.
+    #[arg(short, long)]
+    pub law: Option<PathBuf>,
+    /// Output folder (default: `out/<scene name>`).
+    #[arg(short, long)]
+    pub out: Option<PathBuf>,
+    /// Insertion seed, overriding the scene's.
+    #[arg(long)]
+    pub seed: Option<u64>,
+    /// How often a run saves a checkpoint, from which the same command resumes after an interruption.
+    #[arg(long, default_value = "30 s")]
+    pub checkpoint: String,
+}
+
+impl Command for BedArgs {
+    /// Run the verb, or the one below it.
+    ///
+    /// # Errors
+    /// Those of the scene and law files, of the output folder, of [`run_scene`] and of `bed export`.
+    fn run(&self, context: &Context) -> Result<Verdict> {
+        match (&self.verb, &self.run) {
+            (Some(BedVerb::Export(args)), _) => args.run(context),
+            (None, Some(args)) => run_here(args, context),
+            (None, None) => Err(Error::Argument {
+                argument: "SCENE".to_owned(),
+                found: "nothing".to_owned(),
+                allowed: "must name a scene file".to_owned(),
+            }),
+        }
     }
 }
 

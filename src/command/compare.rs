@@ -1,42 +1,61 @@
 //! `compare`: from impacts and a law file to `compare.csv` and `compare.md`.
 
 use super::fit::read_impacts;
-use super::{Context, check_writable, print};
+use super::{Command, Context, Verdict, check_writable, print};
 use crate::Result;
 use crate::case::Case;
-use crate::cli::CompareArgs;
 use crate::compare::Comparison;
 use crate::contact::{LawVisitor, NormalLaw};
 use crate::law::{Form, LawFile};
-use std::path::Path;
+use clap::Args;
+use std::path::{Path, PathBuf};
 
-/// Run the verb: write both files and print the summary over all speeds.
-///
-/// # Errors
-/// Those of reading the case, the impacts and the law, and of writing the files.
-pub fn run(args: &CompareArgs, context: &Context) -> Result<()> {
-    let case = Case::read(&args.case)?;
-    let folder = args
-        .impacts
-        .clone()
-        .unwrap_or_else(|| Path::new("out").join(&case.name));
-    let law = args.law.clone().unwrap_or_else(|| folder.join("law.toml"));
-    let file = LawFile::read(&law)?;
-    let impacts = read_impacts(&folder, &case)?;
-    let out = args.out.clone().unwrap_or(folder);
-    check_writable(&out)?;
-    if file.material() != case.material {
-        tracing::warn!(
-            "{} was made for another material than {}",
-            law.display(),
-            case.path.display()
-        );
+/// Compare a law and the theories with simulated impacts: `compare.csv`, table, plots.
+#[derive(Debug, Args)]
+pub struct CompareArgs {
+    /// Case file the impacts were made from.
+    pub case: PathBuf,
+    /// Law file (default: `law.toml` in the impacts' folder).
+    #[arg(short, long)]
+    pub law: Option<PathBuf>,
+    /// Folder that holds the `impact_V*` folders (default: `out/<case name>`).
+    #[arg(short, long)]
+    pub impacts: Option<PathBuf>,
+    /// Output folder (default: the impacts' folder).
+    #[arg(short, long)]
+    pub out: Option<PathBuf>,
+}
+
+impl Command for CompareArgs {
+    /// Run the verb: write both files and print the summary over all speeds.
+    ///
+    /// # Errors
+    /// Those of reading the case, the impacts and the law, and of writing the files.
+    fn run(&self, context: &Context) -> Result<Verdict> {
+        let case = Case::read(&self.case)?;
+        let folder = self
+            .impacts
+            .clone()
+            .unwrap_or_else(|| Path::new("out").join(&case.name));
+        let law = self.law.clone().unwrap_or_else(|| folder.join("law.toml"));
+        let file = LawFile::read(&law)?;
+        let impacts = read_impacts(&folder, &case)?;
+        let out = self.out.clone().unwrap_or(folder);
+        check_writable(&out)?;
+        if file.material() != case.material {
+            tracing::warn!(
+                "{} was made for another material than {}",
+                law.display(),
+                case.path.display()
+            );
+        }
+        let mut comparison = Comparison::new(&case.material, case.radius, &impacts);
+        add_fitted(&mut comparison, &file)?;
+        comparison.add_theories();
+        comparison.write(&out, &context.provenance(&case.hash))?;
+        print(&comparison.summary_markdown())?;
+        Ok(Verdict::Met)
     }
-    let mut comparison = Comparison::new(&case.material, case.radius, &impacts);
-    add_fitted(&mut comparison, &file)?;
-    comparison.add_theories();
-    comparison.write(&out, &context.provenance(&case.hash))?;
-    print(&comparison.summary_markdown())
 }
 
 /// Add the law of a file: `fitted` in the form the file names, and `fitted-closed-form` or `fitted-spline` for the

@@ -1,8 +1,7 @@
 //! Cost command: runs the ladders of a case one after the other and shows error against time; finished runs are kept.
 
-use super::{Context, Verdict, output_folder, print};
+use super::{Command, Context, Verdict, output_folder, print};
 use crate::case::Case;
-use crate::cli::CostArgs;
 use crate::cost::accuracy;
 use crate::cost::thesis::{self, Comparison};
 use crate::cost::{Effort, Finished, Footprint, Pulse, Row, Rung, Summary, mark_front, rungs};
@@ -16,41 +15,66 @@ use crate::report::palette::Role;
 use crate::report::scale::Axis;
 use crate::unit::{self, Time, significant};
 use crate::{Error, Result};
+use clap::Args;
 use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
 
-/// Run the ladders of every speed asked for; write `cost.csv`, `cost.md` and the figures.
-///
-/// One run at a time on one thread, so that wall times mean something.
-///
-/// # Errors
-/// Those of reading the case and writing the files; [`Error::Impact`] when the finest run does not finish.
-pub fn run(args: &CostArgs, context: &Context) -> Result<Verdict> {
-    let case = Case::read(&args.case)?.with_velocities(&args.velocity)?;
-    let longest = unit::argument::<Time>("--longest", &args.longest)?;
-    let out = output_folder(args.out.as_deref(), &case.name)?.join("cost");
-    let speeds = match args.velocity.is_empty() {
-        true => &case.velocities[case.velocities.len() - 1..],
-        false => &case.velocities[..],
-    };
-    let mut lines = Vec::new();
-    for &velocity in speeds {
-        let job = Job {
-            case: &case,
-            velocity,
-            out: &out,
-            provenance: context.provenance(&case.hash),
+/// Show what accuracy costs: ladders over grid, points, time step and scheme; errors against wall time.
+#[derive(Debug, Args)]
+pub struct CostArgs {
+    /// Case file.
+    pub case: PathBuf,
+    /// Speeds, overriding the case's fastest, e.g. `--velocity "10 m/s"`.
+    #[arg(long)]
+    pub velocity: Vec<String>,
+    /// Coarse ladders only: less than a minute.
+    #[arg(long)]
+    pub quick: bool,
+    /// Ladders to run beside the reference, selected by the start of their names, e.g. `--ladder cells` (default: all).
+    #[arg(long)]
+    pub ladder: Vec<String>,
+    /// Skip runs predicted to take longer than this.
+    #[arg(long, default_value = "2 min")]
+    pub longest: String,
+    /// Output folder (default: `out/<case name>`); files go to `cost` in it, and finished runs are kept there.
+    #[arg(short, long)]
+    pub out: Option<PathBuf>,
+}
+
+impl Command for CostArgs {
+    /// Run the ladders of every speed asked for; write `cost.csv`, `cost.md` and the figures.
+    ///
+    /// One run at a time on one thread, so that wall times mean something.
+    ///
+    /// # Errors
+    /// Those of reading the case and writing the files; [`Error::Impact`] when the finest run does not finish.
+    fn run(&self, context: &Context) -> Result<Verdict> {
+        let case = Case::read(&self.case)?.with_velocities(&self.velocity)?;
+        let longest = unit::argument::<Time>("--longest", &self.longest)?;
+        let out = output_folder(self.out.as_deref(), &case.name)?.join("cost");
+        let speeds = match self.velocity.is_empty() {
+            true => &case.velocities[case.velocities.len() - 1..],
+            false => &case.velocities[..],
         };
-        let rows = job.run(args, longest, context)?;
-        lines.extend(accuracy::lines(&rows, severity(&case.material, velocity)));
+        let mut lines = Vec::new();
+        for &velocity in speeds {
+            let job = Job {
+                case: &case,
+                velocity,
+                out: &out,
+                provenance: context.provenance(&case.hash),
+            };
+            let rows = job.run(self, longest, context)?;
+            lines.extend(accuracy::lines(&rows, severity(&case.material, velocity)));
+        }
+        let provenance = context.provenance(&case.hash);
+        write_rows(&out.join("cost_accuracy.csv"), &provenance, &lines)?;
+        let text = accuracy::markdown(&lines);
+        let markdown = format!("<!-- {provenance} -->\n{text}");
+        write_atomic(&out.join("cost_accuracy.md"), markdown.as_bytes())?;
+        print(&text)?;
+        Ok(Verdict::Met)
     }
-    let provenance = context.provenance(&case.hash);
-    write_rows(&out.join("cost_accuracy.csv"), &provenance, &lines)?;
-    let text = accuracy::markdown(&lines);
-    let markdown = format!("<!-- {provenance} -->\n{text}");
-    write_atomic(&out.join("cost_accuracy.md"), markdown.as_bytes())?;
-    print(&text)?;
-    Ok(Verdict::Met)
 }
 
 /// The ladders of one speed.
@@ -260,7 +284,7 @@ fn figure(rows: &[Row], name: String) -> Result<Figure> {
         let label = group(&row.ladder);
         let role = match row.ladder.as_str() {
             "planned" => Role::Simulation,
-            _ => Role::Theory,
+            _ => Role::Other,
         };
         match series.iter_mut().find(|s| s.label == label) {
             Some(series) => series.points.push(point),

@@ -1,50 +1,75 @@
 //! `export`: a law file to the files of other codes, and the check that they hold the same law.
 
-use super::{Context, Verdict, output_folder, print};
-use crate::cli::ExportArgs;
+use super::{Command, Context, Verdict, output_folder, print};
 use crate::export::check::{self, Finding};
 use crate::export::portable::Portable;
-use crate::export::{Artifact, Target, series};
+use crate::export::{Artifact, Target};
 use crate::files::write_atomic;
 use crate::law::Form;
 use crate::{Error, Result};
+use clap::Args;
 use std::fmt::Write;
+use std::path::PathBuf;
 
 /// Name of all targets together; those that cannot express the law are left out with a warning.
 const ALL: &str = "all";
 
-/// Run the verb.
-///
-/// # Errors
-/// Those of the law file and the arguments, of a target that cannot express the law, and of writing.
-pub fn run(args: &ExportArgs, context: &Context) -> Result<Verdict> {
-    let targets = targets(&args.to, args.check)?;
-    let form = args.form.as_deref().map(form).transpose()?;
-    let law = Portable::read(&args.law, form)?;
-    let other = args.with.as_deref();
-    let other = other.map(|file| Portable::read(file, form)).transpose()?;
-    let artifacts = match &other {
-        Some(other) => with(&law, other, &targets)?,
-        None => alone(&law, &targets, args.to.iter().any(|name| name == ALL))?,
-    };
-    if !targets.is_empty() {
-        let folder = output_folder(args.out.as_deref(), &law.name)?;
-        let folder = match args.out {
-            Some(_) => folder,
-            None => folder.join("export"),
+/// Write a law for other codes, and check there that it is the same law.
+#[derive(Debug, Args)]
+pub struct ExportArgs {
+    /// Law file.
+    pub law: PathBuf,
+    /// Targets: names of [`Target`] separated by commas, or `all`.
+    #[arg(long, num_args = 1.., value_delimiter = ',', help = to_help())]
+    pub to: Vec<String>,
+    /// Form of the law, overriding the file's: `closed_form`, `spline` or `hertz`.
+    #[arg(long)]
+    pub form: Option<String>,
+    /// Law file of a second material: contacts of the two, for target `c`.
+    #[arg(long)]
+    pub with: Option<PathBuf>,
+    /// Output folder (default: `out/<law name>/export`).
+    #[arg(short, long)]
+    pub out: Option<PathBuf>,
+    /// Compile and run the law in the codes that are installed, and print how well they agree.
+    #[arg(long)]
+    pub check: bool,
+}
+
+impl Command for ExportArgs {
+    /// Run the verb.
+    ///
+    /// # Errors
+    /// Those of the law file and the arguments, of a target that cannot express the law, and of writing.
+    fn run(&self, context: &Context) -> Result<Verdict> {
+        let targets = targets(&self.to, self.check)?;
+        let form = self.form.as_deref().map(form).transpose()?;
+        let law = Portable::read(&self.law, form)?;
+        let other = self.with.as_deref();
+        let other = other.map(|file| Portable::read(file, form)).transpose()?;
+        let artifacts = match &other {
+            Some(other) => with(&law, other, &targets)?,
+            None => alone(&law, &targets, self.to.iter().any(|name| name == ALL))?,
         };
-        let mut said = String::new();
-        for artifact in &artifacts {
-            let path = folder.join(&artifact.name);
-            write_atomic(&path, artifact.text.as_bytes())?;
-            let _ = writeln!(said, "{}", path.display());
+        if !targets.is_empty() {
+            let folder = output_folder(self.out.as_deref(), &law.name)?;
+            let folder = match self.out {
+                Some(_) => folder,
+                None => folder.join("export"),
+            };
+            let mut said = String::new();
+            for artifact in &artifacts {
+                let path = folder.join(&artifact.name);
+                write_atomic(&path, artifact.text.as_bytes())?;
+                let _ = writeln!(said, "{}", path.display());
+            }
+            print(&said)?;
         }
-        print(&said)?;
-    }
-    match (args.check, &other) {
-        (true, Some(other)) => check_with(&law, other),
-        (true, None) => check_all(&law, context),
-        (false, _) => Ok(Verdict::Met),
+        match (self.check, &other) {
+            (true, Some(other)) => check_with(&law, other),
+            (true, None) => check_all(&law, context),
+            (false, _) => Ok(Verdict::Met),
+        }
     }
 }
 
@@ -63,17 +88,23 @@ fn alone(law: &Portable, targets: &[Target], everything: bool) -> Result<Vec<Art
 
 /// Files of the contact of two materials.
 fn with(law: &Portable, other: &Portable, targets: &[Target]) -> Result<Vec<Artifact>> {
-    if let Some(target) = targets.iter().find(|target| **target != Target::C) {
-        return Err(Error::Argument {
-            argument: "--with".to_owned(),
-            found: format!("`--to {target}`"),
-            allowed: "is for target c: the other targets hold one law".to_owned(),
-        });
+    let mut artifacts = Vec::new();
+    for target in targets {
+        let Some(pair) = target.pair() else {
+            let able = Target::ALL.into_iter().filter(|able| able.pair().is_some());
+            let names: Vec<_> = able.map(Target::name).collect();
+            return Err(Error::Argument {
+                argument: "--with".to_owned(),
+                found: format!("`--to {target}`"),
+                allowed: format!(
+                    "is for target {}: the other targets hold one law",
+                    names.join(", ")
+                ),
+            });
+        };
+        artifacts.extend(pair(law, other)?);
     }
-    match targets.is_empty() {
-        true => Ok(Vec::new()),
-        false => series::export(law, other),
-    }
+    Ok(artifacts)
 }
 
 /// Targets by name, once each; `all` is every one. None are needed with `--check`.
@@ -100,17 +131,20 @@ fn targets(names: &[String], check: bool) -> Result<Vec<Target>> {
     Ok(targets)
 }
 
+/// Help of `--to`.
+fn to_help() -> String {
+    let names = Target::ALL.map(|target| format!("`{target}`"));
+    format!(
+        "Targets: {}; several separated by commas, or `{ALL}`",
+        names.join(", ")
+    )
+}
+
 fn form(text: &str) -> Result<Form> {
-    match text {
-        "closed_form" => Ok(Form::ClosedForm),
-        "spline" => Ok(Form::Spline),
-        "hertz" => Ok(Form::Hertz),
-        _ => Err(Error::Argument {
-            argument: "--form".to_owned(),
-            found: format!("`{text}`"),
-            allowed: "must be one of closed_form, spline, hertz".to_owned(),
-        }),
-    }
+    Form::ALL
+        .into_iter()
+        .find(|form| form.name() == text)
+        .ok_or_else(|| Error::not_one_of("--form", text, Form::ALL.map(Form::name)))
 }
 
 fn scratch() -> Result<tempfile::TempDir> {

@@ -1,45 +1,60 @@
 //! `fit`: from the impacts of a case to its law file.
 
-use super::{Context, Verdict, check_writable, print};
+use super::{Command, Context, Verdict, check_writable, print};
 use crate::case::Case;
-use crate::cli::FitArgs;
 use crate::curve::Impact;
 use crate::fit::{INERTIA_GAIN, THRESHOLD, fit};
 use crate::law::LawFile;
 use crate::law::file::{LeftOutRow, QualityRow};
 use crate::{Error, PROGRAM, Result};
+use clap::Args;
 use std::path::{Path, PathBuf};
 
-/// Run the verb: [`Verdict::Missed`] when the law is off by more than [`THRESHOLD`] somewhere.
-///
-/// # Errors
-/// Those of reading the case and the impacts, of the fit, and of writing the law.
-pub fn run(args: &FitArgs, _context: &Context) -> Result<Verdict> {
-    let case = Case::read(&args.case)?;
-    check_normal(&case)?;
-    let folder = args
-        .impacts
-        .clone()
-        .unwrap_or_else(|| Path::new("out").join(&case.name));
-    let target = args.out.clone().unwrap_or_else(|| folder.join("law.toml"));
-    let impacts = read_impacts(&folder, &case)?;
-    check_writable(target.parent().unwrap_or(Path::new(".")))?;
-    let result = fit(&case, &impacts)?;
-    for velocity in &result.skipped {
-        tracing::warn!("the impact at {velocity} m/s did not rebound and is left out");
+/// Fit a contact law to simulated impacts: `law.toml`.
+#[derive(Debug, Args)]
+pub struct FitArgs {
+    /// Case file the impacts were made from.
+    pub case: PathBuf,
+    /// Folder that holds the `impact_V*` folders (default: `out/<case name>`).
+    #[arg(short, long)]
+    pub impacts: Option<PathBuf>,
+    /// Law file to write (default: `law.toml` in that folder).
+    #[arg(short, long)]
+    pub out: Option<PathBuf>,
+}
+
+impl Command for FitArgs {
+    /// Run the verb: [`Verdict::Missed`] when the law is off by more than [`THRESHOLD`] somewhere.
+    ///
+    /// # Errors
+    /// Those of reading the case and the impacts, of the fit, and of writing the law.
+    fn run(&self, _context: &Context) -> Result<Verdict> {
+        let case = Case::read(&self.case)?;
+        check_normal(&case)?;
+        let folder = self
+            .impacts
+            .clone()
+            .unwrap_or_else(|| Path::new("out").join(&case.name));
+        let target = self.out.clone().unwrap_or_else(|| folder.join("law.toml"));
+        let impacts = read_impacts(&folder, &case)?;
+        check_writable(target.parent().unwrap_or(Path::new(".")))?;
+        let result = fit(&case, &impacts)?;
+        for velocity in &result.skipped {
+            tracing::warn!("the impact at {velocity} m/s did not rebound and is left out");
+        }
+        let file = LawFile::of(&result, &case, PROGRAM);
+        file.write(&target)?;
+        print(&table(&file, &target))?;
+        if file.worst_error() <= THRESHOLD {
+            return Ok(Verdict::Met);
+        }
+        let percent = 100.0 * file.worst_error();
+        tracing::warn!(
+            "the law misses a figure by {percent:.1} %, more than {:.0} %",
+            100.0 * THRESHOLD
+        );
+        Ok(Verdict::Missed)
     }
-    let file = LawFile::of(&result, &case, PROGRAM);
-    file.write(&target)?;
-    print(&table(&file, &target))?;
-    if file.worst_error() <= THRESHOLD {
-        return Ok(Verdict::Met);
-    }
-    let percent = 100.0 * file.worst_error();
-    tracing::warn!(
-        "the law misses a figure by {percent:.1} %, more than {:.0} %",
-        100.0 * THRESHOLD
-    );
-    Ok(Verdict::Missed)
 }
 
 /// Checks that the impacts of a case can be compared with a normal law.

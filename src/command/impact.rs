@@ -1,16 +1,16 @@
 //! Impact command: simulates every speed of a case in parallel and writes a folder for each.
 
 use crate::case::Case;
-use crate::cli::ImpactArgs;
-use crate::command::{Context, Verdict, impact_folder, output_folder};
+use crate::command::{Command, Context, Verdict, impact_folder, output_folder};
 use crate::curve::Status;
 use crate::impact::{Simulated, simulate_kept};
 use crate::plan::plan;
 use crate::tape::Checkpoint;
 use crate::unit::{self, Time};
 use crate::{Error, Result};
+use clap::Args;
 use rayon::prelude::*;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// How often a run saves a checkpoint unless told otherwise.
@@ -18,16 +18,34 @@ pub const CHECKPOINT: Duration = Duration::from_secs(30);
 /// The file it is kept in, beside the results to come; gone when they are there.
 pub const CHECKPOINT_FILE: &str = "checkpoint.bin";
 
-/// Simulate and write all impacts of the case.
-///
-/// # Errors
-/// Those of reading the case and writing the results; [`Error::Impact`] when a run did not finish (its files are written all the same).
-pub fn run(args: &ImpactArgs, context: &Context) -> Result<Verdict> {
-    let case = Case::read(&args.case)?.with_velocities(&args.velocity)?;
-    let interval = interval(&args.checkpoint)?;
-    let out = output_folder(args.out.as_deref(), &case.name)?;
-    impacts(&case, &out, interval, context)?;
-    Ok(Verdict::Met)
+/// Simulate the impacts of a case: `curve.csv` and `summary.json` for each speed.
+#[derive(Debug, Args)]
+pub struct ImpactArgs {
+    /// Case file.
+    pub case: PathBuf,
+    /// Speeds, overriding the case's, e.g. `--velocity "10 m/s"`.
+    #[arg(long)]
+    pub velocity: Vec<String>,
+    /// Output folder (default: `out/<case name>`).
+    #[arg(short, long)]
+    pub out: Option<PathBuf>,
+    /// How often a run saves a checkpoint, from which the same command resumes after an interruption.
+    #[arg(long, default_value = "30 s")]
+    pub checkpoint: String,
+}
+
+impl Command for ImpactArgs {
+    /// Simulate and write all impacts of the case.
+    ///
+    /// # Errors
+    /// Those of reading the case and writing the results; [`Error::Impact`] when a run did not finish (its files are written all the same).
+    fn run(&self, context: &Context) -> Result<Verdict> {
+        let case = Case::read(&self.case)?.with_velocities(&self.velocity)?;
+        let interval = interval(&self.checkpoint)?;
+        let out = output_folder(self.out.as_deref(), &case.name)?;
+        impacts(&case, &out, interval, context)?;
+        Ok(Verdict::Met)
+    }
 }
 
 /// Time between two checkpoints.

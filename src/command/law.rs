@@ -1,21 +1,55 @@
 //! `law eval`: the force of a law file at given displacements, as CSV.
 
-use super::{Context, Verdict, print};
+use super::{Command, Context, Verdict, print};
 use crate::Result;
-use crate::cli::{LawEvalArgs, LawVerb};
 use crate::contact::{LawVisitor, NormalLaw};
 use crate::law::LawFile;
 use crate::unit::{Length, argument};
 use crate::{Error, unit::Dimension};
+use clap::{Args, Subcommand};
 use std::fmt::Write;
+use std::path::PathBuf;
 
-/// Run the verb.
-///
-/// # Errors
-/// Those of the law file, and [`Error::Argument`] for quantities that are not lengths.
-pub fn run(verb: &LawVerb, _context: &Context) -> Result<Verdict> {
-    match verb {
-        LawVerb::Eval(args) => eval(args),
+/// Work with a law file.
+#[derive(Debug, Args)]
+pub struct LawArgs {
+    /// What to do with it.
+    #[command(subcommand)]
+    pub verb: LawVerb,
+}
+
+/// Verbs on a law file.
+#[derive(Debug, Subcommand)]
+#[allow(missing_docs)] // each verb is described by the doc comment of its arguments
+pub enum LawVerb {
+    Eval(LawEvalArgs),
+}
+
+/// Print F(delta) as CSV: the law at rest, without the inertia term of a fast first loading.
+#[derive(Debug, Args)]
+pub struct LawEvalArgs {
+    /// Law file.
+    pub law: PathBuf,
+    /// Radius of the body with unit, e.g. `"250 um"`.
+    #[arg(long)]
+    pub body: String,
+    /// Displacements with units, e.g. `"1 um"`.
+    #[arg(long, num_args = 1.., value_delimiter = ',', required = true)]
+    pub displacements: Vec<String>,
+    /// Largest displacement reached before: the displacements lie on the unloading branch.
+    #[arg(long)]
+    pub max_displacement: Option<String>,
+}
+
+impl Command for LawArgs {
+    /// Run the verb.
+    ///
+    /// # Errors
+    /// Those of the law file, and [`Error::Argument`] for quantities that are not lengths.
+    fn run(&self, _context: &Context) -> Result<Verdict> {
+        match &self.verb {
+            LawVerb::Eval(args) => eval(args),
+        }
     }
 }
 

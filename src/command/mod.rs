@@ -1,4 +1,7 @@
-//! Commands: what each verb of the command line does, from its input files to its output files.
+//! Commands: the verbs of the command line, one file a verb: its arguments and what it does from its input files to its
+//! output files.
+//!
+//! A new verb is a new file, its `mod` line and one line of the list of [`Verb`].
 
 pub mod bed;
 pub mod bed_export;
@@ -20,6 +23,53 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+/// The arguments of a verb; their doc comment is its description in the help.
+pub trait Command: clap::Args {
+    /// Run the verb.
+    ///
+    /// # Errors
+    /// Those of reading its input and writing its output, and of the work between.
+    fn run(&self, context: &Context) -> Result<Verdict>;
+}
+
+/// Makes the verbs of the command line from the list of their arguments.
+macro_rules! verbs {
+    ($($verb:ident($args:ty),)+) => {
+        /// The verbs, in the order of the help.
+        #[derive(Debug, clap::Subcommand)]
+        #[allow(missing_docs)] // each verb is described by the doc comment of its arguments
+        pub enum Verb {
+            $($verb($args),)+
+        }
+
+        impl Verb {
+            /// Run the verb that was given.
+            ///
+            /// # Errors
+            /// Those of the verb.
+            pub fn run(&self, context: &Context) -> Result<Verdict> {
+                match self {
+                    $(Verb::$verb(args) => args.run(context),)+
+                }
+            }
+        }
+    };
+}
+
+verbs! {
+    Run(run::RunArgs),
+    Plan(plan::PlanArgs),
+    Impact(impact::ImpactArgs),
+    Fit(fit::FitArgs),
+    Compare(compare::CompareArgs),
+    Theory(theory::TheoryArgs),
+    Bed(bed::BedArgs),
+    Study(study::StudyArgs),
+    Cost(cost::CostArgs),
+    Export(export::ExportArgs),
+    Law(law::LawArgs),
+}
+
 /// What a command knows besides its own arguments.
 #[derive(Debug, Clone)]
 pub struct Context {
@@ -36,12 +86,6 @@ pub enum Verdict {
     Met,
     /// The result fails a stated threshold.
     Missed,
-}
-
-impl From<()> for Verdict {
-    fn from((): ()) -> Self {
-        Verdict::Met
-    }
 }
 
 impl Context {

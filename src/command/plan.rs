@@ -2,20 +2,33 @@
 
 use crate::Result;
 use crate::case::Case;
-use crate::cli::PlanArgs;
-use crate::command::{Context, Verdict, print};
+use crate::command::{Command, Context, Verdict, print};
 use crate::plan::{Plan, plan};
 use crate::unit::engineering;
+use clap::Args;
 use std::fmt::Write;
+use std::path::PathBuf;
 
-/// Print the plan of every speed.
-///
-/// # Errors
-/// Those of reading the case.
-pub fn run(args: &PlanArgs, _context: &Context) -> Result<Verdict> {
-    let case = Case::read(&args.case)?.with_velocities(&args.velocity)?;
-    print(&text(&case))?;
-    Ok(Verdict::Met)
+/// Print what would be run, why, and the predicted seconds.
+#[derive(Debug, Args)]
+pub struct PlanArgs {
+    /// Case file.
+    pub case: PathBuf,
+    /// Speeds, overriding the case's, e.g. `--velocity "10 m/s"`.
+    #[arg(long)]
+    pub velocity: Vec<String>,
+}
+
+impl Command for PlanArgs {
+    /// Print the plan of every speed.
+    ///
+    /// # Errors
+    /// Those of reading the case.
+    fn run(&self, _context: &Context) -> Result<Verdict> {
+        let case = Case::read(&self.case)?.with_velocities(&self.velocity)?;
+        print(&text(&case))?;
+        Ok(Verdict::Met)
+    }
 }
 
 /// The plan as a person reads it.

@@ -1,11 +1,10 @@
 //! `run`: the whole path from a case file to law, comparison, bed and report.
 
 use super::show::{self, NamedLaw};
-use super::{Context, Verdict, bed, compare, impact, output_folder, print};
+use super::{Command, Context, Verdict, bed, compare, impact, output_folder, print};
 use crate::bed::run::BedReport;
 use crate::bed::scene::Scene;
 use crate::case::Case;
-use crate::cli::RunArgs;
 use crate::compare::Comparison;
 use crate::curve::Impact;
 use crate::document::Document;
@@ -15,7 +14,8 @@ use crate::law::LawFile;
 use crate::plan::{Plan, plan};
 use crate::report::RunPage;
 use crate::{PROGRAM, Result};
-use std::path::Path;
+use clap::Args;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// What the stages have made, for the report.
@@ -27,33 +27,51 @@ struct Results {
     bed: Option<(Scene, BedReport)>,
 }
 
-/// Run the verb; all input is read and checked before any work starts.
-///
-/// # Errors
-/// Those of every stage; what was finished before stays in the output folder.
-pub fn run(args: &RunArgs, context: &Context) -> Result<Verdict> {
-    let started = Instant::now();
-    let document = Document::read(&args.case)?;
-    let case = Case::from_document(&document)?;
-    super::fit::check_normal(&case)?;
-    let scene = case
-        .bed
-        .as_deref()
-        .filter(|_| !args.no_bed)
-        .map(Scene::read)
-        .transpose()?;
-    let out = output_folder(args.out.as_deref(), &case.name)?;
-    let results = stages(&case, scene, &out, args.seed, context)?;
-    let page = report(&document, &case, &results, &out, context, started)?;
-    let worst = 100.0 * results.law.worst_error();
-    print(&format!(
-        "{}\nlaw     {}\nerror   {worst:.2} % at most, of F*, delta* and e\nreport  {}\ntime    {:.1} s\n",
-        results.comparison.summary_markdown(),
-        out.join("law.toml").display(),
-        page.display(),
-        started.elapsed().as_secs_f64()
-    ))?;
-    Ok(verdict(&results))
+/// Run everything: plan, impacts, fit, comparison, bed, report.
+#[derive(Debug, Args)]
+pub struct RunArgs {
+    /// Case file.
+    pub case: PathBuf,
+    /// Output folder (default: `out/<case name>`).
+    #[arg(short, long)]
+    pub out: Option<PathBuf>,
+    /// Skip the bed even if the case names a scene.
+    #[arg(long)]
+    pub no_bed: bool,
+    /// Random seed (bed insertion), overriding the scene's.
+    #[arg(long)]
+    pub seed: Option<u64>,
+}
+
+impl Command for RunArgs {
+    /// Run the verb; all input is read and checked before any work starts.
+    ///
+    /// # Errors
+    /// Those of every stage; what was finished before stays in the output folder.
+    fn run(&self, context: &Context) -> Result<Verdict> {
+        let started = Instant::now();
+        let document = Document::read(&self.case)?;
+        let case = Case::from_document(&document)?;
+        super::fit::check_normal(&case)?;
+        let scene = case
+            .bed
+            .as_deref()
+            .filter(|_| !self.no_bed)
+            .map(Scene::read)
+            .transpose()?;
+        let out = output_folder(self.out.as_deref(), &case.name)?;
+        let results = stages(&case, scene, &out, self.seed, context)?;
+        let page = report(&document, &case, &results, &out, context, started)?;
+        let worst = 100.0 * results.law.worst_error();
+        print(&format!(
+            "{}\nlaw     {}\nerror   {worst:.2} % at most, of F*, delta* and e\nreport  {}\ntime    {:.1} s\n",
+            results.comparison.summary_markdown(),
+            out.join("law.toml").display(),
+            page.display(),
+            started.elapsed().as_secs_f64()
+        ))?;
+        Ok(verdict(&results))
+    }
 }
 
 fn stages(

@@ -2,9 +2,8 @@
 
 use super::impact::{CHECKPOINT, CHECKPOINT_FILE};
 use super::show;
-use super::{Context, Verdict, output_folder, print};
+use super::{Command, Context, Verdict, output_folder, print};
 use crate::case::Case;
-use crate::cli::StudyArgs;
 use crate::curve::{Impact, Status, Summary};
 use crate::files::{write_atomic, write_rows};
 use crate::impact::{simulate, simulate_kept};
@@ -12,6 +11,7 @@ use crate::plan::{plan, severity, with_cells};
 use crate::study::{Study, drawn, group, scaled};
 use crate::tape::Checkpoint;
 use crate::{Error, Result};
+use clap::Args;
 use rayon::prelude::*;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -20,46 +20,62 @@ use std::path::{Path, PathBuf};
 /// Figures of every group by its name, with the number of the case that stands for it.
 type Runs = BTreeMap<String, (usize, Summary)>;
 
-/// Run what is not there yet, then write `results.csv`; [`Verdict::Missed`] when a case did not end with status ok.
-///
-/// # Errors
-/// Those of reading the study and of writing the results.
-pub fn run(args: &StudyArgs, context: &Context) -> Result<Verdict> {
-    let study = Study::read(&args.study)?;
-    let out = output_folder(args.out.as_deref(), &study.name)?;
-    let runs = runs(&study, &out, context)?;
-    let rows: Vec<(usize, Summary)> = study
-        .cases
-        .iter()
-        .enumerate()
-        .map(|(i, case)| {
-            let (first, summary) = &runs[&group(case)];
-            (i, scaled(summary, &study.cases[*first], case))
+/// Run a grid of cases, equal dimensionless groups once: `results.csv`. Finished runs are kept and not repeated.
+#[derive(Debug, Args)]
+pub struct StudyArgs {
+    /// Study file.
+    pub study: PathBuf,
+    /// Output folder; by default `out/` and the study's name.
+    #[arg(short, long)]
+    pub out: Option<PathBuf>,
+    /// Also run this many cases, drawn over the whole range, with cells of half the size, and compare the change with
+    /// the tolerance.
+    #[arg(long, default_value_t = 0)]
+    pub refine: usize,
+}
+
+impl Command for StudyArgs {
+    /// Run what is not there yet, then write `results.csv`; [`Verdict::Missed`] when a case did not end with status ok.
+    ///
+    /// # Errors
+    /// Those of reading the study and of writing the results.
+    fn run(&self, context: &Context) -> Result<Verdict> {
+        let study = Study::read(&self.study)?;
+        let out = output_folder(self.out.as_deref(), &study.name)?;
+        let runs = runs(&study, &out, context)?;
+        let rows: Vec<(usize, Summary)> = study
+            .cases
+            .iter()
+            .enumerate()
+            .map(|(i, case)| {
+                let (first, summary) = &runs[&group(case)];
+                (i, scaled(summary, &study.cases[*first], case))
+            })
+            .collect();
+        let path = out.join("results.csv");
+        write_atomic(
+            &path,
+            table(&study, &rows, &context.provenance(&study.hash), &path)?.as_bytes(),
+        )?;
+        let overview = show::study::overview(runs.values().map(|(i, s)| (&study.cases[*i], s)));
+        write_atomic(&out.join("study.md"), overview.as_bytes())?;
+        let ok = rows.iter().filter(|(_, s)| s.status == Status::Ok).count();
+        print(&format!(
+            "{} cases, {} runs, {ok} with status ok -> {}\n",
+            rows.len(),
+            runs.len(),
+            path.display()
+        ))?;
+        let met = match self.refine {
+            0 => true,
+            count => refinement(&study, &runs, &out, count, context)?,
+        };
+        Ok(if ok == rows.len() && met {
+            Verdict::Met
+        } else {
+            Verdict::Missed
         })
-        .collect();
-    let path = out.join("results.csv");
-    write_atomic(
-        &path,
-        table(&study, &rows, &context.provenance(&study.hash), &path)?.as_bytes(),
-    )?;
-    let overview = show::study::overview(runs.values().map(|(i, s)| (&study.cases[*i], s)));
-    write_atomic(&out.join("study.md"), overview.as_bytes())?;
-    let ok = rows.iter().filter(|(_, s)| s.status == Status::Ok).count();
-    print(&format!(
-        "{} cases, {} runs, {ok} with status ok -> {}\n",
-        rows.len(),
-        runs.len(),
-        path.display()
-    ))?;
-    let met = match args.refine {
-        0 => true,
-        count => refinement(&study, &runs, &out, count, context)?,
-    };
-    Ok(if ok == rows.len() && met {
-        Verdict::Met
-    } else {
-        Verdict::Missed
-    })
+    }
 }
 
 /// Run `count` of the runs again with cells of half the size, write `refinement.csv`, and say whether every change is below

@@ -1,14 +1,16 @@
 //! Command `theory`: force or restitution of a published law as CSV on standard output.
 
+use super::{Command, Context, Verdict};
 use crate::case::Case;
-use crate::cli::TheoryArgs;
 use crate::contact::rebound::rebound;
 use crate::contact::{LawVisitor, NormalLaw};
-use crate::theory::{Theory, wu_li_thornton};
+use crate::theory::published::Publication;
+use crate::theory::{FORMULAS, Theory};
 use crate::unit::{self, Length, Velocity};
 use crate::{Error, Result};
+use clap::Args;
 use serde::Serialize;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Point of a force-displacement curve. Field names are the CSV header (file contract).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -33,14 +35,35 @@ pub struct RestitutionRow {
     pub restitution_closed_form: Option<f64>,
 }
 
-/// Print the table the arguments ask for.
-///
-/// # Errors
-/// [`Error::Argument`] for an unknown theory, a quantity without unit or out of range, or nothing to evaluate; what
-/// [`Case::read`] returns.
-pub fn run(args: &TheoryArgs) -> Result<()> {
-    let case = Case::read(&args.case)?;
-    super::print(&table(args, &case)?)
+/// Evaluate a theory: force against displacement, or restitution against velocity, as CSV.
+#[derive(Debug, Args)]
+pub struct TheoryArgs {
+    /// Model name, e.g. `hertz`, `thornton`, `kogut-etsion`.
+    pub model: String,
+    /// Case file: radius and material.
+    pub case: PathBuf,
+    /// Displacements with units, e.g. `"1 um"`; prints `displacement_m,force_N,contact_radius_m`.
+    #[arg(long, num_args = 1.., value_delimiter = ',')]
+    pub displacements: Vec<String>,
+    /// Largest displacement reached before: the displacements lie on the unloading branch.
+    #[arg(long)]
+    pub max_displacement: Option<String>,
+    /// Speeds with units; prints `velocity_m_s,restitution`.
+    #[arg(long, num_args = 1.., value_delimiter = ',', conflicts_with = "displacements")]
+    pub velocities: Vec<String>,
+}
+
+impl Command for TheoryArgs {
+    /// Print the table the arguments ask for.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for an unknown theory, a quantity without unit or out of range, or nothing to evaluate; what
+    /// [`Case::read`] returns.
+    fn run(&self, _context: &Context) -> Result<Verdict> {
+        let case = Case::read(&self.case)?;
+        super::print(&table(self, &case)?)?;
+        Ok(Verdict::Met)
+    }
 }
 
 /// The CSV text for a case that has been read.
@@ -60,8 +83,13 @@ pub fn table(args: &TheoryArgs, case: &Case) -> Result<String> {
     }
 }
 
+/// Published model of this name that gives a restitution only.
+fn formula(name: &str) -> Option<Publication> {
+    FORMULAS.into_iter().find(|formula| formula.name == name)
+}
+
 fn force_rows(args: &TheoryArgs, case: &Case) -> Result<Vec<ForceRow>> {
-    if args.model == wu_li_thornton::NAME {
+    if formula(&args.model).is_some() {
         return Err(Error::Argument {
             argument: "--displacements".to_owned(),
             found: args.model.clone(),
@@ -132,11 +160,13 @@ impl LawVisitor for Forces<'_> {
 fn restitution_rows(args: &TheoryArgs, case: &Case) -> Result<Vec<RestitutionRow>> {
     let velocities = quantities::<Velocity>("--velocities", &args.velocities, true)?;
     let material = &case.material;
-    if args.model == wu_li_thornton::NAME {
+    if let Some(formula) = formula(&args.model) {
         let row = |velocity_m_s| RestitutionRow {
             velocity_m_s,
             restitution: None,
-            restitution_closed_form: wu_li_thornton::restitution(material, velocity_m_s),
+            restitution_closed_form: formula
+                .restitution
+                .and_then(|restitution| restitution(material, velocity_m_s)),
         };
         return Ok(velocities.into_iter().map(row).collect());
     }

@@ -73,14 +73,12 @@ impl Comparison {
         }
     }
 
-    /// Add every theory the material allows: all of them, or Hertz alone for an elastic body.
+    /// Add every theory that has a law of the material.
     pub fn add_theories(&mut self) {
         let material = self.material;
-        for theory in Theory::ALL {
-            if theory == Theory::Hertz || material.flow.is_some() {
-                // the only refusal is a missing yield strength, which has just been looked at
-                let _ = theory.visit(&material, Added(self, theory.name()));
-            }
+        for theory in Theory::of(&material) {
+            // the only refusal is a missing yield strength, which has just been looked at
+            let _ = theory.visit(&material, Added(self, theory.name()));
         }
     }
 

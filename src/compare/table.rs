@@ -1,7 +1,7 @@
 //! Table: the comparison as Markdown that a person reads, best law first.
 
 use super::{Comparison, Row, SIMULATION};
-use crate::theory::{Theory, wu_li_thornton};
+use crate::theory::{self, FORMULAS, Theory};
 use std::fmt::Write;
 
 /// Root-mean-square figures of one law over all speeds.
@@ -144,25 +144,20 @@ impl Comparison {
             return;
         }
         text.push_str("## Restitution from the authors' formulas\n\n| V m/s | mpm");
-        let theories: Vec<Theory> = Theory::ALL
-            .into_iter()
-            .filter(|theory| !matches!(theory, Theory::Hertz | Theory::KogutEtsion))
-            .collect();
-        for theory in &theories {
-            let _ = write!(text, " | {theory}");
+        for (name, _) in theory::formulas() {
+            let _ = write!(text, " | {name}");
         }
-        let columns = "---|".repeat(theories.len() + 3);
-        let _ = writeln!(text, " | {} |\n|{columns}", wu_li_thornton::NAME);
+        let columns = "---|".repeat(theory::formulas().count() + 2);
+        let _ = writeln!(text, " |\n|{columns}");
         let cell = |e: Option<f64>| e.map_or_else(String::new, |e| format!("{e:.3}"));
         for impact in &self.impacts {
             let velocity = impact.summary.velocity_m_s;
             let _ = write!(text, "| {velocity} | {:.3}", impact.summary.restitution);
-            for theory in &theories {
-                let e = theory.restitution_closed_form(&self.material, velocity);
+            for (_, restitution) in theory::formulas() {
+                let e = restitution(&self.material, velocity);
                 let _ = write!(text, " | {}", cell(e));
             }
-            let e = wu_li_thornton::restitution(&self.material, velocity);
-            let _ = writeln!(text, " | {} |", cell(e));
+            text.push_str(" |\n");
         }
         text.push('\n');
     }
@@ -177,12 +172,9 @@ impl Comparison {
             let _ = writeln!(text, "- {theory}: {}", theory.reference());
         }
         if self.material.flow.is_some() {
-            let _ = writeln!(
-                text,
-                "- {}: {}",
-                wu_li_thornton::NAME,
-                wu_li_thornton::REFERENCE
-            );
+            for formula in FORMULAS {
+                let _ = writeln!(text, "- {}: {}", formula.name, formula.reference);
+            }
         }
     }
 }

@@ -1,10 +1,26 @@
 //! Target `c`: one C99 header with the kernel, its description and a self-test.
 
 use super::portable::Portable;
-use super::{Artifact, describe, kernel};
+use super::{describe, kernel, series};
+use crate::Result;
+use crate::export::Artifact;
+use crate::export::dialect::{Dialect, PairExport};
 use std::fmt::Write;
 
 const SELF_TEST: &str = include_str!("c/self_test.h");
+
+/// One C99 header.
+#[derive(Debug, Clone, Copy)]
+pub struct Header;
+
+impl Dialect for Header {
+    const NAME: &'static str = "c";
+    const PAIR: Option<PairExport> = Some(export_with);
+
+    fn export(law: &Portable) -> Result<Vec<Artifact>> {
+        Ok(export(law))
+    }
+}
 
 /// The header `<identifier>.h`.
 #[must_use]
@@ -12,6 +28,18 @@ pub fn export(law: &Portable) -> Vec<Artifact> {
     let name = format!("{}.h", law.identifier);
     let text = header(law);
     vec![Artifact { name, text }]
+}
+
+/// Headers of two laws and of their contact.
+///
+/// # Errors
+/// As [`series::export`].
+pub fn export_with(first: &Portable, second: &Portable) -> Result<Vec<Artifact>> {
+    let contact = series::export(first, second)?;
+    let mut files = export(first);
+    files.extend(export(second));
+    files.push(contact);
+    Ok(files)
 }
 
 /// Text of the header.

@@ -56,8 +56,7 @@ pub fn filled(template: &str, law: &Portable) -> String {
 /// $8 G/(2 - \nu)$ of the law's material, Pa: stiffness of Mindlin's spring over the contact radius, one side.
 pub(super) fn shear(law: &Portable) -> f64 {
     let material = law.material();
-    let modulus = material.young_modulus / (2.0 * (1.0 + material.poisson_ratio));
-    8.0 * modulus / (2.0 - material.poisson_ratio)
+    8.0 * material.shear_modulus() / (2.0 - material.poisson_ratio)
 }
 
 /// The identifier as a name of a class.

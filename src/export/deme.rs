@@ -3,9 +3,25 @@
 //! Proved through a shim only (`check/deme_shim.cpp`): the engine itself needs a CUDA device.
 
 use super::portable::Portable;
-use super::{Artifact, c, contact, kernel};
+use super::{c, contact, kernel};
+use crate::Result;
+use crate::export::Artifact;
+use crate::export::dialect::{Dialect, PairExport};
 
 const FORCE: &str = include_str!("c/deme_force.cu");
+
+/// Force model of DEM-Engine.
+#[derive(Debug, Clone, Copy)]
+pub struct Deme;
+
+impl Dialect for Deme {
+    const NAME: &'static str = "deme";
+    const PAIR: Option<PairExport> = None;
+
+    fn export(law: &Portable) -> Result<Vec<Artifact>> {
+        Ok(export(law))
+    }
+}
 
 /// `<identifier>_deme_prerequisites.cu`, the law, and `<identifier>_deme_force.cu`, the body of the model.
 #[must_use]

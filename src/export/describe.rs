@@ -1,6 +1,6 @@
 //! Description of an exported law: the text that every dialect carries on top, so that its file explains itself.
 
-use super::portable::{Portable, form_name};
+use super::portable::Portable;
 use super::reference::Impact;
 use crate::law::Form;
 use std::fmt::Write;
@@ -78,7 +78,7 @@ pub fn provenance(law: &Portable) -> String {
         from.case,
         from.case_sha256,
         law.hash,
-        form_name(law.form),
+        law.form.name(),
     )
 }
 

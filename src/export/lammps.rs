@@ -1,9 +1,11 @@
 //! Target `lammps`: a pair style and a fix for walls as a plugin of a released LAMMPS, and a granular sub-model for those
 //! who build it.
 
-use super::Artifact;
 use super::contact::{filled, headers};
 use super::portable::Portable;
+use crate::Result;
+use crate::export::Artifact;
+use crate::export::dialect::{Dialect, PairExport};
 
 const STYLE: &str = include_str!("lammps/style.h");
 const HISTORY: &str = include_str!("lammps/history.cpp");
@@ -14,6 +16,19 @@ const SUB_MODEL_HEADER: &str = include_str!("lammps/gran_sub_mod.h");
 const SUB_MODEL: &str = include_str!("lammps/gran_sub_mod.cpp");
 const BUILD: &str = include_str!("lammps/build.sh");
 const IMPACT: &str = include_str!("lammps/impact.in");
+
+/// Plugin and sub-model for LAMMPS.
+#[derive(Debug, Clone, Copy)]
+pub struct Lammps;
+
+impl Dialect for Lammps {
+    const NAME: &'static str = "lammps";
+    const PAIR: Option<PairExport> = None;
+
+    fn export(law: &Portable) -> Result<Vec<Artifact>> {
+        Ok(export(law))
+    }
+}
 
 /// The files, in a folder `lammps`.
 #[must_use]

@@ -1,8 +1,10 @@
 //! Target `liggghts`: a normal and a tangential model of LIGGGHTS, and the library that puts them into a stock program.
 
-use super::Artifact;
 use super::contact::{filled, headers};
 use super::portable::Portable;
+use crate::Result;
+use crate::export::Artifact;
+use crate::export::dialect::{Dialect, PairExport};
 
 const NORMAL: &str = include_str!("liggghts/normal_model.h");
 const TANGENTIAL: &str = include_str!("liggghts/tangential_model.h");
@@ -12,6 +14,19 @@ const IMPACT: &str = include_str!("liggghts/impact.in");
 
 /// Number of the models in LIGGGHTS' tables, of six bits; LIGGGHTS itself uses those up to 12.
 const MODEL_ID: &str = "40";
+
+/// Models for LIGGGHTS.
+#[derive(Debug, Clone, Copy)]
+pub struct Liggghts;
+
+impl Dialect for Liggghts {
+    const NAME: &'static str = "liggghts";
+    const PAIR: Option<PairExport> = None;
+
+    fn export(law: &Portable) -> Result<Vec<Artifact>> {
+        Ok(export(law))
+    }
+}
 
 /// The files, in a folder `liggghts`.
 #[must_use]

@@ -3,10 +3,26 @@
 //! Proved through a shim only (`check/mercury_shim.cpp`): the code is not in a package registry.
 
 use super::portable::Portable;
-use super::{Artifact, c, contact, kernel};
+use super::{c, contact, kernel};
+use crate::Result;
+use crate::export::Artifact;
+use crate::export::dialect::{Dialect, PairExport};
 
 const INTERACTION: &str = include_str!("c/mercury_interaction.h");
 const SPECIES: &str = include_str!("c/mercury_species.h");
+
+/// Species and interaction of MercuryDPM.
+#[derive(Debug, Clone, Copy)]
+pub struct MercuryDpm;
+
+impl Dialect for MercuryDpm {
+    const NAME: &'static str = "mercurydpm";
+    const PAIR: Option<PairExport> = None;
+
+    fn export(law: &Portable) -> Result<Vec<Artifact>> {
+        Ok(export(law))
+    }
+}
 
 /// The law's header, the interaction and the species, in the folders of MercuryDPM where they belong.
 #[must_use]

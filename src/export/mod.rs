@@ -1,13 +1,15 @@
 //! Export: a fitted law in the languages of other discrete-element codes, and the proof that it is the same law there.
 //!
 //! A law file becomes a [`portable::Portable`]; [`kernel`] writes it once in C, and each dialect, one file a target, wraps
-//! that text in what its code asks for. What could be executed is executed by [`check`].
+//! that text in what its code asks for. A new target is a new file with its [`dialect::Dialect`], its `mod` line and one line
+//! of the list of [`Target`]. What could be executed is executed by [`check`].
 
 pub mod c;
 pub mod check;
 pub mod contact;
 pub mod deme;
 pub mod describe;
+pub mod dialect;
 pub mod kernel;
 pub mod lammps;
 pub mod liggghts;
@@ -20,6 +22,7 @@ pub mod series;
 pub mod table;
 
 use crate::{Error, Result};
+use dialect::{Dialect, PairExport};
 use portable::Portable;
 
 /// A text file of an export.
@@ -31,66 +34,59 @@ pub struct Artifact {
     pub text: String,
 }
 
-/// Where a law can go.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Target {
-    /// [`c`].
-    C,
-    /// [`liggghts`].
-    Liggghts,
-    /// [`lammps`].
-    Lammps,
-    /// [`table`].
-    Table,
-    /// [`native`].
-    Native,
-    /// [`deme`].
-    Deme,
-    /// [`mercurydpm`].
-    MercuryDpm,
+/// Makes [`Target`] from the list of dialects.
+macro_rules! targets {
+    ($($target:ident => $dialect:ty,)+) => {
+        /// Where a law can go.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+        pub enum Target {
+            $(
+                #[doc = concat!("[`", stringify!($dialect), "`].")]
+                $target,
+            )+
+        }
+
+        impl Target {
+            /// Every target, in the order of messages.
+            pub const ALL: [Target; [$(Target::$target),+].len()] = [$(Target::$target),+];
+
+            /// Name on the command line.
+            #[must_use]
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Target::$target => <$dialect>::NAME,)+
+                }
+            }
+
+            /// What writes the contact of two materials, where the target can hold one.
+            #[must_use]
+            pub fn pair(self) -> Option<PairExport> {
+                match self {
+                    $(Target::$target => <$dialect>::PAIR,)+
+                }
+            }
+
+            /// The files of this target.
+            ///
+            /// # Errors
+            /// [`Error::Argument`] when the target cannot express the law.
+            pub fn export(self, law: &Portable) -> Result<Vec<Artifact>> {
+                match self {
+                    $(Target::$target => <$dialect>::export(law),)+
+                }
+            }
+        }
+    };
 }
 
-impl Target {
-    /// Every target, in the order of messages.
-    pub const ALL: [Target; 7] = [
-        Target::C,
-        Target::Liggghts,
-        Target::Lammps,
-        Target::Table,
-        Target::Native,
-        Target::Deme,
-        Target::MercuryDpm,
-    ];
-
-    /// Name on the command line.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Target::C => "c",
-            Target::Liggghts => "liggghts",
-            Target::Lammps => "lammps",
-            Target::Table => "table",
-            Target::Native => "native",
-            Target::Deme => "deme",
-            Target::MercuryDpm => "mercurydpm",
-        }
-    }
-
-    /// The files of this target.
-    ///
-    /// # Errors
-    /// [`Error::Argument`] when the target cannot express the law.
-    pub fn export(self, law: &Portable) -> Result<Vec<Artifact>> {
-        Ok(match self {
-            Target::C => c::export(law),
-            Target::Liggghts => liggghts::export(law),
-            Target::Lammps => lammps::export(law),
-            Target::Table => table::export(law),
-            Target::Native => native::files(law)?,
-            Target::Deme => deme::export(law),
-            Target::MercuryDpm => mercurydpm::export(law),
-        })
-    }
+targets! {
+    C => c::Header,
+    Liggghts => liggghts::Liggghts,
+    Lammps => lammps::Lammps,
+    Table => table::Table,
+    Native => native::Native,
+    Deme => deme::Deme,
+    MercuryDpm => mercurydpm::MercuryDpm,
 }
 
 impl std::fmt::Display for Target {
@@ -106,13 +102,6 @@ impl std::str::FromStr for Target {
         Target::ALL
             .into_iter()
             .find(|target| target.name() == text)
-            .ok_or_else(|| Error::Argument {
-                argument: "--to".to_owned(),
-                found: format!("`{text}`"),
-                allowed: format!(
-                    "must be one of {}",
-                    Target::ALL.map(Target::name).join(", ")
-                ),
-            })
+            .ok_or_else(|| Error::not_one_of("--to", text, Target::ALL.map(Target::name)))
     }
 }

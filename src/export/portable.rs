@@ -100,16 +100,6 @@ impl Portable {
     }
 }
 
-/// Name of a form in files and on the command line.
-#[must_use]
-pub fn form_name(form: Form) -> &'static str {
-    match form {
-        Form::Hertz => "hertz",
-        Form::ClosedForm => "closed_form",
-        Form::Spline => "spline",
-    }
-}
-
 /// `form`, if the file has a table of it.
 fn held(file: &LawFile, form: Form) -> Result<Form> {
     let holds = |form: &Form| match form {
@@ -120,15 +110,11 @@ fn held(file: &LawFile, form: Form) -> Result<Form> {
     if holds(&form) {
         return Ok(form);
     }
-    let held = [Form::ClosedForm, Form::Spline, Form::Hertz];
-    let names: Vec<&str> = held
-        .iter()
-        .filter(|f| holds(f))
-        .map(|f| form_name(*f))
-        .collect();
+    let held = Form::ALL.into_iter().filter(holds);
+    let names: Vec<&str> = held.map(Form::name).collect();
     Err(Error::Argument {
         argument: "--form".to_owned(),
-        found: form_name(form).to_owned(),
+        found: form.name().to_owned(),
         allowed: format!("is not in the law file, which holds {}", names.join(", ")),
     })
 }

@@ -39,19 +39,28 @@ pub enum Code {
     Liggghts,
 }
 
+impl Code {
+    /// Every code, in the order of messages.
+    pub const ALL: [Code; 2] = [Code::Lammps, Code::Liggghts];
+
+    /// Name on the command line.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Code::Lammps => "lammps",
+            Code::Liggghts => "liggghts",
+        }
+    }
+}
+
 impl std::str::FromStr for Code {
     type Err = Error;
 
     fn from_str(text: &str) -> Result<Self> {
-        match text {
-            "lammps" => Ok(Code::Lammps),
-            "liggghts" => Ok(Code::Liggghts),
-            _ => Err(Error::Argument {
-                argument: "--to".to_owned(),
-                found: format!("`{text}`"),
-                allowed: "must be one of lammps, liggghts".to_owned(),
-            }),
-        }
+        Code::ALL
+            .into_iter()
+            .find(|code| code.name() == text)
+            .ok_or_else(|| Error::not_one_of("--to", text, Code::ALL.map(Code::name)))
     }
 }
 

@@ -1,7 +1,7 @@
 //! Series: a contact of two materials in C, the flattening laws of both bodies pressed by one force.
 
 use super::portable::Portable;
-use super::{Artifact, c, describe, kernel};
+use super::{Artifact, describe, kernel};
 use crate::{Error, Result};
 use std::fmt::Write;
 
@@ -14,11 +14,11 @@ surface they share is curved; each side is pressed like a sphere on a plane of t
 1/R_e = 1/R_1 + 1/R_2: Hertz's pair for any radii and moduli while both are elastic. E* = E/(1 - nu^2) of each alone.
 Units, signs, reset: as in the headers of the laws. Contacts within one material: those headers.";
 
-/// Headers of both laws and of their contact, `<first>_with_<second>.h`.
+/// Header of the contact of two laws, `<first>_with_<second>.h`, to stand beside theirs.
 ///
 /// # Errors
 /// [`Error::Argument`] when both laws have one name.
-pub fn export(first: &Portable, second: &Portable) -> Result<Vec<Artifact>> {
+pub fn export(first: &Portable, second: &Portable) -> Result<Artifact> {
     if first.identifier == second.identifier {
         return Err(Error::Argument {
             argument: "--with".to_owned(),
@@ -26,13 +26,10 @@ pub fn export(first: &Portable, second: &Portable) -> Result<Vec<Artifact>> {
             allowed: "must have a name of its own: C tells laws apart by it".to_owned(),
         });
     }
-    let mut files = c::export(first);
-    files.extend(c::export(second));
-    files.push(Artifact {
+    Ok(Artifact {
         name: format!("{}.h", identifier(first, second)),
         text: header(first, second),
-    });
-    Ok(files)
+    })
 }
 
 fn identifier(first: &Portable, second: &Portable) -> String {

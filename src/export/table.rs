@@ -1,13 +1,29 @@
 //! Target `table`: F(delta; delta_max) of a body of radius 1 m as CSV, for codes that interpolate.
 
+use super::describe;
 use super::portable::Portable;
-use super::{Artifact, describe};
+use crate::Result;
+use crate::export::Artifact;
+use crate::export::dialect::{Dialect, PairExport};
 use std::fmt::Write;
 
 /// Largest displacements of the table, up to the end of the law's range.
 const BRANCHES: u32 = 40;
 /// Displacements on each branch, from loss of contact to the largest one.
 const POINTS: u32 = 40;
+
+/// Table of forces.
+#[derive(Debug, Clone, Copy)]
+pub struct Table;
+
+impl Dialect for Table {
+    const NAME: &'static str = "table";
+    const PAIR: Option<PairExport> = None;
+
+    fn export(law: &Portable) -> Result<Vec<Artifact>> {
+        Ok(export(law))
+    }
+}
 
 /// The table `<identifier>.csv`: for each largest displacement, spaced evenly in $\sqrt{\delta_m}$, the branch from the
 /// displacement at which contact is lost up to it. The last point of each branch lies on the loading curve.

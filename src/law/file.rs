@@ -35,6 +35,21 @@ pub enum Form {
     Spline,
 }
 
+impl Form {
+    /// Every form, in the order of messages.
+    pub const ALL: [Form; 3] = [Form::ClosedForm, Form::Spline, Form::Hertz];
+
+    /// Name in files and on the command line.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Form::Hertz => "hertz",
+            Form::ClosedForm => "closed_form",
+            Form::Spline => "spline",
+        }
+    }
+}
+
 /// A law file. Numbers survive writing and reading bit for bit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

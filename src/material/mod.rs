@@ -4,6 +4,7 @@ pub mod flow;
 pub mod stress;
 
 use std::f64::consts::PI;
+use stress::Moduli;
 
 /// Peak Hertz pressure at first yield over the yield strength (Johnson 1985, section 6.3).
 pub const YIELD_PRESSURE_RATIO: f64 = 1.6;
@@ -46,6 +47,12 @@ impl Material {
     #[must_use]
     pub fn contact_modulus(&self) -> f64 {
         self.young_modulus / (1.0 - self.poisson_ratio * self.poisson_ratio)
+    }
+
+    /// Shear modulus $G = E/(2 + 2\nu)$, Pa.
+    #[must_use]
+    pub fn shear_modulus(&self) -> f64 {
+        Moduli::new(self.young_modulus, self.poisson_ratio).shear
     }
 
     /// Mass of a sphere, kg.

@@ -84,7 +84,7 @@ impl Chart {
                 let series = &self.series[i];
                 let same = |other: &&Series| other.role == series.role;
                 let nth = self.series[..i].iter().filter(same).count();
-                palette::ink(series.role, &series.label, nth)
+                palette::ink(series.role, nth)
             })
             .collect()
     }

@@ -42,7 +42,7 @@ impl Figure {
                 .collect(),
         }];
         series.extend_from_slice(laws);
-        let leading = |role| role != Role::Theory;
+        let leading = |role| matches!(role, Role::Simulation | Role::Law);
         let (x_max, y_max) = series
             .iter()
             .filter(|one| leading(one.role))
@@ -185,7 +185,7 @@ mod tests {
         };
         let hertz = Series {
             label: "Hertz".to_owned(),
-            role: Role::Theory,
+            role: Role::Theory(0),
             mark: Mark::Line,
             points: vec![(0.0, 0.0), (19e-6, 400.0)],
         };

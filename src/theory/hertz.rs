@@ -1,5 +1,6 @@
 //! Hertz: the elastic sphere on a rigid plane.
 
+use super::published::{Published, PublishedLaw, Restitution};
 use crate::contact::{NormalLaw, State};
 use crate::material::Material;
 
@@ -61,6 +62,23 @@ impl Hertz {
     /// Slope of the reduced force (Pa).
     pub(crate) fn slope(&self, x: f64) -> f64 {
         1.5 * self.prefactor * x.max(0.0).sqrt()
+    }
+}
+
+impl Published for Hertz {
+    const NAME: &'static str = "hertz";
+    const SUMMARY: &'static str = "elastic";
+    const PAPERS: &'static [&'static str] = &["Hertz1882", "Johnson1985"];
+    const REFERENCE: &'static str = "Hertz 1882; Johnson 1985, section 4.2";
+    const RESTITUTION: Option<Restitution> = Some(|_, _| Some(1.0));
+}
+
+impl PublishedLaw for Hertz {
+    type Law = Self;
+    const NEEDS_YIELD: bool = false;
+
+    fn law(material: &Material) -> Option<Self> {
+        Some(Self::of(material))
     }
 }
 

@@ -3,6 +3,7 @@
 
 use super::envelope::{Envelope, Unloading};
 use super::hertz::Hertz;
+use super::published::{Published, PublishedLaw, Restitution};
 use crate::material::Material;
 
 /// $w$ up to which the sphere is Hertzian.
@@ -92,6 +93,23 @@ struct Terms {
     plastic: f64,
     hardness: f64,
     hardness_rate: f64,
+}
+
+impl Published for JacksonGreen {
+    const NAME: &'static str = "jackson-green";
+    const SUMMARY: &'static str = "finite-element fit; unloading of Jackson, Green and Marghitu";
+    const PAPERS: &'static [&'static str] = &["JacksonGreen2005", "JacksonGreenMarghitu2010"];
+    const REFERENCE: &'static str = "Jackson and Green 2005, J. Tribol. 127, 343; unloading Jackson, Green and Marghitu 2010, Nonlinear Dyn. 60, 217";
+    const RESTITUTION: Option<Restitution> = Some(restitution);
+}
+
+impl PublishedLaw for JacksonGreen {
+    type Law = Self;
+    const NEEDS_YIELD: bool = true;
+
+    fn law(material: &Material) -> Option<Self> {
+        Self::of(material)
+    }
 }
 
 impl Envelope for JacksonGreen {

@@ -2,6 +2,7 @@
 
 use super::envelope::{Envelope, Unloading};
 use super::hertz::Hertz;
+use super::published::{Published, PublishedLaw, Restitution};
 use crate::material::Material;
 use std::f64::consts::PI;
 
@@ -44,6 +45,23 @@ impl Johnson {
             slope: 2.0 * PI * p_d,
             meeting: (1.5 * PI * p_d / e_star).powi(2),
         })
+    }
+}
+
+impl Published for Johnson {
+    const NAME: &'static str = "johnson";
+    const SUMMARY: &'static str = "fully plastic at 3 Y, elastic unloading";
+    const PAPERS: &'static [&'static str] = &["Johnson1985"];
+    const REFERENCE: &'static str = "Johnson 1985, sections 6.3 and 11.5, p = 3 Y; Hertzian until the plastic line is met (not in the book)";
+    const RESTITUTION: Option<Restitution> = Some(restitution);
+}
+
+impl PublishedLaw for Johnson {
+    type Law = Self;
+    const NEEDS_YIELD: bool = true;
+
+    fn law(material: &Material) -> Option<Self> {
+        Self::of(material)
     }
 }
 

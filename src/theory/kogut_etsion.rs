@@ -2,6 +2,7 @@
 
 use super::envelope::{Envelope, Unloading};
 use super::hertz::Hertz;
+use super::published::{Published, PublishedLaw, Restitution};
 use crate::material::Material;
 
 /// Hardness over the yield strength, H/Y.
@@ -76,6 +77,24 @@ impl KogutEtsion {
 
     fn row(w: f64) -> Option<&'static Row> {
         ROWS.iter().find(|row| w <= row.to)
+    }
+}
+
+impl Published for KogutEtsion {
+    const NAME: &'static str = "kogut-etsion";
+    const SUMMARY: &'static str =
+        "finite-element power laws; unloading of Etsion, Kligerman and Kadin";
+    const PAPERS: &'static [&'static str] = &["KogutEtsion2002", "EtsionKligermanKadin2005"];
+    const REFERENCE: &'static str = "Kogut and Etsion 2002, J. Appl. Mech. 69, 657; unloading Etsion, Kligerman and Kadin 2005, Int. J. Solids Struct. 42, 3716 (unloading constants unverified)";
+    const RESTITUTION: Option<Restitution> = None;
+}
+
+impl PublishedLaw for KogutEtsion {
+    type Law = Self;
+    const NEEDS_YIELD: bool = true;
+
+    fn law(material: &Material) -> Option<Self> {
+        Self::of(material)
     }
 }
 

@@ -1,6 +1,7 @@
 //! Luding: linear springs whose unloading stiffens with the largest overlap up to a limit branch.
 
 use super::envelope::{Envelope, Unloading};
+use super::published::{Published, PublishedLaw, Restitution};
 use super::spring::Springs;
 use crate::material::Material;
 
@@ -69,6 +70,25 @@ impl Luding {
     pub fn restitution(&self, material: &Material, velocity: f64) -> Option<f64> {
         let peak = velocity * (material.sphere_mass(1.0) / self.loading).sqrt();
         (peak <= self.limit_flattening).then(|| (self.loading / self.stiffness_after(peak)).sqrt())
+    }
+}
+
+impl Published for Luding {
+    const NAME: &'static str = "luding";
+    const SUMMARY: &'static str =
+        "linear; unloading stiffness grows with the largest flattening; without adhesion";
+    const PAPERS: &'static [&'static str] = &["Luding2008"];
+    const REFERENCE: &'static str = "Luding 2008, Granular Matter 10, 235, without adhesion; k1 = 5 R Y (Walton 2006), limit stiffness from Johnson's e at rho V^2/Y = 0.01";
+    const RESTITUTION: Option<Restitution> =
+        Some(|material, velocity| Luding::of(material)?.restitution(material, velocity));
+}
+
+impl PublishedLaw for Luding {
+    type Law = Self;
+    const NEEDS_YIELD: bool = true;
+
+    fn law(material: &Material) -> Option<Self> {
+        Self::of(material)
     }
 }
 

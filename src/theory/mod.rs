@@ -1,6 +1,8 @@
-//! Theories: published normal contact laws of a sphere on a rigid frictionless plane, one file a model.
+//! Theories: published models of a sphere on a rigid frictionless plane, one file a model.
 //!
-//! [`Theory`] is the one list of models; [`Theory::visit`] is the one match that turns a name into its law.
+//! A model states itself in its own file: [`published::Published`], and [`PublishedLaw`] if it gives a force. The list at the end of
+//! this file makes everything else of it: [`Theory`] with its names, its order and the one match from a name to a law, and
+//! [`FORMULAS`]. A new theory is a new file, its `mod` line and one line of that list.
 
 pub mod envelope;
 pub mod hertz;
@@ -8,110 +10,108 @@ pub mod jackson_green;
 pub mod johnson;
 pub mod kogut_etsion;
 pub mod luding;
+pub mod published;
 pub mod spring;
 pub mod thornton;
 pub mod walton_braun;
 pub mod wu_li_thornton;
 
 use crate::contact::LawVisitor;
-use crate::material::{Material, YIELD_PRESSURE_RATIO};
+use crate::material::Material;
 use crate::{Error, Result};
-use hertz::Hertz;
-use jackson_green::JacksonGreen;
-use johnson::Johnson;
-use kogut_etsion::KogutEtsion;
-use luding::Luding;
+use published::{Publication, PublishedLaw, Restitution};
 use serde::{Deserialize, Serialize};
-use thornton::Thornton;
-use walton_braun::WaltonBraun;
 
-/// Limiting pressure over yield strength of [`Theory::ThorntonHardness`]: Tabor's hardness, 2.8 Y.
-const HARDNESS_RATIO: f64 = 2.8;
+/// Makes [`Theory`] and [`FORMULAS`] from the list of models.
+macro_rules! theories {
+    (laws { $($theory:ident => $law:ty,)+ } formulas { $($formula:ty,)* }) => {
+        /// A published contact law, by the name it has in files and on the command line.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+        #[serde(into = "&'static str", try_from = "String")]
+        pub enum Theory {
+            $(
+                #[doc = concat!("[`", stringify!($law), "`].")]
+                $theory,
+            )+
+        }
 
-/// A published contact law, by the name it has in files and on the command line.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Theory {
-    /// [`Hertz`].
-    Hertz,
-    /// [`Johnson`].
-    Johnson,
-    /// [`Thornton`] with the pressure limited at first yield, 1.6 Y.
-    Thornton,
-    /// [`Thornton`] with the pressure limited at the hardness, 2.8 Y.
-    ThorntonHardness,
-    /// [`KogutEtsion`].
-    KogutEtsion,
-    /// [`JacksonGreen`].
-    JacksonGreen,
-    /// [`WaltonBraun::constant`].
-    WaltonBraun,
-    /// [`WaltonBraun::variable`].
-    WaltonBraunVariable,
-    /// [`Luding`].
-    Luding,
+        impl Theory {
+            /// Every theory, in the order of reports.
+            pub const ALL: [Theory; [$(Theory::$theory),+].len()] = [$(Theory::$theory),+];
+
+            /// What its file states.
+            #[must_use]
+            pub fn publication(self) -> Publication {
+                match self {
+                    $(Theory::$theory => Publication::of::<$law>(),)+
+                }
+            }
+
+            /// Whether it has no law of an elastic body.
+            #[must_use]
+            pub fn needs_yield(self) -> bool {
+                match self {
+                    $(Theory::$theory => <$law>::NEEDS_YIELD,)+
+                }
+            }
+
+            /// Run `visitor` with this theory's law of `material`; `None` where there is none.
+            fn visit_law<V: LawVisitor>(self, material: &Material, visitor: V) -> Option<V::Output> {
+                match self {
+                    $(Theory::$theory => <$law>::law(material).map(|law| visitor.visit(&law)),)+
+                }
+            }
+        }
+
+        /// Published models that give a restitution and no force.
+        pub const FORMULAS: [Publication; [$(stringify!($formula)),*].len()] =
+            [$(Publication::of::<$formula>()),*];
+    };
 }
 
 impl Theory {
-    /// Every theory, in the order of reports.
-    pub const ALL: [Theory; 9] = [
-        Theory::Hertz,
-        Theory::Johnson,
-        Theory::Thornton,
-        Theory::ThorntonHardness,
-        Theory::KogutEtsion,
-        Theory::JacksonGreen,
-        Theory::WaltonBraun,
-        Theory::WaltonBraunVariable,
-        Theory::Luding,
-    ];
-
     /// Name in files and on the command line.
     #[must_use]
     pub fn name(self) -> &'static str {
-        match self {
-            Theory::Hertz => "hertz",
-            Theory::Johnson => "johnson",
-            Theory::Thornton => "thornton",
-            Theory::ThorntonHardness => "thornton-hardness",
-            Theory::KogutEtsion => "kogut-etsion",
-            Theory::JacksonGreen => "jackson-green",
-            Theory::WaltonBraun => "walton-braun",
-            Theory::WaltonBraunVariable => "walton-braun-variable",
-            Theory::Luding => "luding",
-        }
+        self.publication().name
     }
 
     /// Papers, and what in the implementation is not theirs.
     #[must_use]
     pub fn reference(self) -> &'static str {
-        match self {
-            Theory::Hertz => "Hertz 1882; Johnson 1985, section 4.2",
-            Theory::Johnson => {
-                "Johnson 1985, sections 6.3 and 11.5, p = 3 Y; Hertzian until the plastic line is met (not in the book)"
-            }
-            Theory::Thornton => {
-                "Thornton 1997, J. Appl. Mech. 64, 383, pressure limited at first yield, 1.6 Y"
-            }
-            Theory::ThorntonHardness => {
-                "Thornton 1997, J. Appl. Mech. 64, 383, pressure limited at the hardness, 2.8 Y"
-            }
-            Theory::KogutEtsion => {
-                "Kogut and Etsion 2002, J. Appl. Mech. 69, 657; unloading Etsion, Kligerman and Kadin 2005, Int. J. Solids Struct. 42, 3716 (unloading constants unverified)"
-            }
-            Theory::JacksonGreen => {
-                "Jackson and Green 2005, J. Tribol. 127, 343; unloading Jackson, Green and Marghitu 2010, Nonlinear Dyn. 60, 217"
-            }
-            Theory::WaltonBraun => {
-                "Walton and Braun 1986, J. Rheol. 30, 949, constant k2; k1 = 5 R Y (Walton 2006), k2 from Johnson's e at rho V^2/Y = 0.01"
-            }
-            Theory::WaltonBraunVariable => {
-                "Walton and Braun 1986, J. Rheol. 30, 949, k2 growing with the force; k1 = 5 R Y (Walton 2006), k2 from Johnson's e at rho V^2/Y = 0.01"
-            }
-            Theory::Luding => {
-                "Luding 2008, Granular Matter 10, 235, without adhesion; k1 = 5 R Y (Walton 2006), limit stiffness from Johnson's e at rho V^2/Y = 0.01"
-            }
-        }
+        self.publication().reference
+    }
+
+    /// Place in [`Theory::ALL`].
+    #[must_use]
+    pub fn place(self) -> usize {
+        self as usize
+    }
+
+    /// Whether it has a law of `material`.
+    #[must_use]
+    pub fn applies_to(self, material: &Material) -> bool {
+        material.flow.is_some() || !self.needs_yield()
+    }
+
+    /// The theories that have a law of `material`, in the order of [`Theory::ALL`].
+    pub fn of(material: &Material) -> impl Iterator<Item = Theory> {
+        let material = *material;
+        Theory::ALL
+            .into_iter()
+            .filter(move |theory| theory.applies_to(&material))
+    }
+
+    /// Names of the theories an elastic body has, each between two `quote`s.
+    #[must_use]
+    pub fn elastic(quote: char) -> String {
+        let elastic = Theory::ALL
+            .into_iter()
+            .filter(|theory| !theory.needs_yield());
+        let names: Vec<_> = elastic
+            .map(|theory| format!("{quote}{theory}{quote}"))
+            .collect();
+        names.join(", ")
     }
 
     /// Run `visitor` with this theory's law of `material`.
@@ -119,50 +119,34 @@ impl Theory {
     /// # Errors
     /// [`Error::Argument`] when the theory needs a yield strength and the material has none.
     pub fn visit<V: LawVisitor>(self, material: &Material, visitor: V) -> Result<V::Output> {
-        let hard = HARDNESS_RATIO;
-        match self {
-            Theory::Hertz => Some(visitor.visit(&Hertz::of(material))),
-            Theory::Johnson => Johnson::of(material).map(|law| visitor.visit(&law)),
-            Theory::Thornton => {
-                Thornton::of(material, YIELD_PRESSURE_RATIO).map(|law| visitor.visit(&law))
-            }
-            Theory::ThorntonHardness => Thornton::of(material, hard).map(|law| visitor.visit(&law)),
-            Theory::KogutEtsion => KogutEtsion::of(material).map(|law| visitor.visit(&law)),
-            Theory::JacksonGreen => JacksonGreen::of(material).map(|law| visitor.visit(&law)),
-            Theory::WaltonBraun => WaltonBraun::constant(material).map(|law| visitor.visit(&law)),
-            Theory::WaltonBraunVariable => {
-                WaltonBraun::variable(material).map(|law| visitor.visit(&law))
-            }
-            Theory::Luding => Luding::of(material).map(|law| visitor.visit(&law)),
-        }
-        .ok_or_else(|| Error::Argument {
-            argument: "theory".to_owned(),
-            found: self.name().to_owned(),
-            allowed: "needs `material.yield_strength`; an elastic body has the law `hertz` only"
-                .to_owned(),
-        })
+        self.visit_law(material, visitor)
+            .ok_or_else(|| Error::Argument {
+                argument: "theory".to_owned(),
+                found: self.name().to_owned(),
+                allowed: format!(
+                    "needs `material.yield_strength`; an elastic body has the law {} only",
+                    Theory::elastic('`')
+                ),
+            })
     }
 
     /// Coefficient of restitution at speed `velocity` (m/s) in closed form; `None` where there is none or it does
     /// not hold.
     #[must_use]
     pub fn restitution_closed_form(self, material: &Material, velocity: f64) -> Option<f64> {
-        match self {
-            Theory::Hertz => Some(1.0),
-            Theory::Johnson => johnson::restitution(material, velocity),
-            Theory::Thornton => thornton::restitution(material, YIELD_PRESSURE_RATIO, velocity),
-            Theory::ThorntonHardness => thornton::restitution(material, HARDNESS_RATIO, velocity),
-            Theory::KogutEtsion => None,
-            Theory::JacksonGreen => jackson_green::restitution(material, velocity),
-            Theory::WaltonBraun => {
-                WaltonBraun::constant(material).map(|law| law.restitution(material, velocity))
-            }
-            Theory::WaltonBraunVariable => {
-                WaltonBraun::variable(material).map(|law| law.restitution(material, velocity))
-            }
-            Theory::Luding => Luding::of(material)?.restitution(material, velocity),
-        }
+        self.publication().restitution?(material, velocity)
     }
+}
+
+/// The authors' formulas for the restitution of a yielding body, those of theories first.
+pub fn formulas() -> impl Iterator<Item = (&'static str, Restitution)> {
+    let yielding = Theory::ALL
+        .into_iter()
+        .filter(|theory| theory.needs_yield());
+    yielding
+        .map(Theory::publication)
+        .chain(FORMULAS)
+        .filter_map(|model| Some((model.name, model.restitution?)))
 }
 
 impl std::fmt::Display for Theory {
@@ -178,13 +162,37 @@ impl std::str::FromStr for Theory {
         Theory::ALL
             .into_iter()
             .find(|theory| theory.name() == text)
-            .ok_or_else(|| Error::Argument {
-                argument: "theory".to_owned(),
-                found: format!("`{text}`"),
-                allowed: format!(
-                    "must be one of {}",
-                    Theory::ALL.map(Theory::name).join(", ")
-                ),
-            })
+            .ok_or_else(|| Error::not_one_of("theory", text, Theory::ALL.map(Theory::name)))
+    }
+}
+
+impl From<Theory> for &'static str {
+    fn from(theory: Theory) -> Self {
+        theory.name()
+    }
+}
+
+impl TryFrom<String> for Theory {
+    type Error = Error;
+
+    fn try_from(text: String) -> Result<Self> {
+        text.parse()
+    }
+}
+
+theories! {
+    laws {
+        Hertz => hertz::Hertz,
+        Johnson => johnson::Johnson,
+        Thornton => thornton::AtFirstYield,
+        ThorntonHardness => thornton::AtHardness,
+        KogutEtsion => kogut_etsion::KogutEtsion,
+        JacksonGreen => jackson_green::JacksonGreen,
+        WaltonBraun => walton_braun::Constant,
+        WaltonBraunVariable => walton_braun::Variable,
+        Luding => luding::Luding,
+    }
+    formulas {
+        wu_li_thornton::WuLiThornton,
     }
 }

@@ -2,8 +2,12 @@
 
 use super::envelope::{Envelope, Unloading};
 use super::hertz::Hertz;
-use crate::material::Material;
+use super::published::{Published, PublishedLaw, Restitution};
+use crate::material::{Material, YIELD_PRESSURE_RATIO};
 use std::f64::consts::PI;
+
+/// Limiting pressure of [`AtHardness`] over the yield strength: Tabor's hardness.
+const HARDNESS_RATIO: f64 = 2.8;
 
 /// Elastic-perfectly plastic contact with the Hertz pressure truncated at $p_y$.
 ///
@@ -45,6 +49,52 @@ impl Thornton {
             yield_force: point.force,
             slope: PI * p_y,
         })
+    }
+}
+
+/// [`Thornton`] with the pressure limited at first yield, 1.6 Y.
+#[derive(Debug, Clone, Copy)]
+pub struct AtFirstYield;
+
+impl Published for AtFirstYield {
+    const NAME: &'static str = "thornton";
+    const SUMMARY: &'static str = "pressure limited at first yield, 1.6 Y";
+    const PAPERS: &'static [&'static str] = &["Thornton1997"];
+    const REFERENCE: &'static str =
+        "Thornton 1997, J. Appl. Mech. 64, 383, pressure limited at first yield, 1.6 Y";
+    const RESTITUTION: Option<Restitution> =
+        Some(|material, velocity| restitution(material, YIELD_PRESSURE_RATIO, velocity));
+}
+
+impl PublishedLaw for AtFirstYield {
+    type Law = Thornton;
+    const NEEDS_YIELD: bool = true;
+
+    fn law(material: &Material) -> Option<Thornton> {
+        Thornton::of(material, YIELD_PRESSURE_RATIO)
+    }
+}
+
+/// [`Thornton`] with the pressure limited at the hardness, 2.8 Y.
+#[derive(Debug, Clone, Copy)]
+pub struct AtHardness;
+
+impl Published for AtHardness {
+    const NAME: &'static str = "thornton-hardness";
+    const SUMMARY: &'static str = "pressure limited at the hardness, 2.8 Y";
+    const PAPERS: &'static [&'static str] = &["Thornton1997"];
+    const REFERENCE: &'static str =
+        "Thornton 1997, J. Appl. Mech. 64, 383, pressure limited at the hardness, 2.8 Y";
+    const RESTITUTION: Option<Restitution> =
+        Some(|material, velocity| restitution(material, HARDNESS_RATIO, velocity));
+}
+
+impl PublishedLaw for AtHardness {
+    type Law = Thornton;
+    const NEEDS_YIELD: bool = true;
+
+    fn law(material: &Material) -> Option<Thornton> {
+        Thornton::of(material, HARDNESS_RATIO)
     }
 }
 

@@ -1,6 +1,7 @@
 //! Walton and Braun: a linear spring in loading and a stiffer one in unloading.
 
 use super::envelope::{Envelope, Unloading};
+use super::published::{Published, PublishedLaw, Restitution};
 use super::spring::Springs;
 use crate::material::Material;
 
@@ -66,6 +67,52 @@ impl WaltonBraun {
         let flattening = velocity * (material.sphere_mass(1.0) / self.loading).sqrt();
         let stiffness = self.unloading + self.growth * self.loading * flattening;
         (self.loading / stiffness).sqrt()
+    }
+}
+
+/// [`WaltonBraun::constant`].
+#[derive(Debug, Clone, Copy)]
+pub struct Constant;
+
+impl Published for Constant {
+    const NAME: &'static str = "walton-braun";
+    const SUMMARY: &'static str = "linear; unloading stiffer by a constant ratio";
+    const PAPERS: &'static [&'static str] = &["WaltonBraun1986"];
+    const REFERENCE: &'static str = "Walton and Braun 1986, J. Rheol. 30, 949, constant k2; k1 = 5 R Y (Walton 2006), k2 from Johnson's e at rho V^2/Y = 0.01";
+    const RESTITUTION: Option<Restitution> = Some(|material, velocity| {
+        Some(WaltonBraun::constant(material)?.restitution(material, velocity))
+    });
+}
+
+impl PublishedLaw for Constant {
+    type Law = WaltonBraun;
+    const NEEDS_YIELD: bool = true;
+
+    fn law(material: &Material) -> Option<WaltonBraun> {
+        WaltonBraun::constant(material)
+    }
+}
+
+/// [`WaltonBraun::variable`].
+#[derive(Debug, Clone, Copy)]
+pub struct Variable;
+
+impl Published for Variable {
+    const NAME: &'static str = "walton-braun-variable";
+    const SUMMARY: &'static str = "linear; unloading stiffness grows with the largest force";
+    const PAPERS: &'static [&'static str] = &["WaltonBraun1986"];
+    const REFERENCE: &'static str = "Walton and Braun 1986, J. Rheol. 30, 949, k2 growing with the force; k1 = 5 R Y (Walton 2006), k2 from Johnson's e at rho V^2/Y = 0.01";
+    const RESTITUTION: Option<Restitution> = Some(|material, velocity| {
+        Some(WaltonBraun::variable(material)?.restitution(material, velocity))
+    });
+}
+
+impl PublishedLaw for Variable {
+    type Law = WaltonBraun;
+    const NEEDS_YIELD: bool = true;
+
+    fn law(material: &Material) -> Option<WaltonBraun> {
+        WaltonBraun::variable(material)
     }
 }
 

@@ -1,5 +1,6 @@
 //! Wu, Li and Thornton: restitution at finite plastic deformation, from finite elements; no force law.
 
+use super::published::{Published, Restitution};
 use crate::material::{Material, YIELD_PRESSURE_RATIO};
 
 /// Prefactor of the curve of finite plastic deformation.
@@ -7,10 +8,17 @@ const FINITE: f64 = 0.62;
 /// Prefactor of the curve of small plastic deformation.
 const SMALL: f64 = 2.08;
 
-/// Name on the command line and in reports.
-pub const NAME: &str = "wu-li-thornton";
-/// Paper.
-pub const REFERENCE: &str = "Wu, Li and Thornton 2003, Int. J. Impact Eng. 28, 929";
+/// The formula as a published model; the paper gives no force.
+#[derive(Debug, Clone, Copy)]
+pub struct WuLiThornton;
+
+impl Published for WuLiThornton {
+    const NAME: &'static str = "wu-li-thornton";
+    const SUMMARY: &'static str = "restitution at finite plastic deformation, no force";
+    const PAPERS: &'static [&'static str] = &["WuLiThornton2003"];
+    const REFERENCE: &'static str = "Wu, Li and Thornton 2003, Int. J. Impact Eng. 28, 929";
+    const RESTITUTION: Option<Restitution> = Some(restitution);
+}
 
 /// Coefficient of restitution of an elastic-perfectly plastic sphere on a rigid wall at speed `velocity` (m/s):
 ///

@@ -1,6 +1,9 @@
 //! Command line through the real binary: bad input gives one clear error, exit code 2 and writes nothing.
 
 use crate::program::{impactlaw, message};
+use clap::CommandFactory;
+use impactlaw::cli::Cli;
+use impactlaw::export::Target;
 use std::path::Path;
 use tempfile::TempDir;
 
@@ -359,4 +362,16 @@ fn curves_are_the_same_for_any_number_of_threads() {
         })
     };
     assert_eq!(curves("1"), curves("2"));
+}
+
+#[test]
+fn the_tables_of_the_readme_have_every_verb_and_every_target_of_an_export() {
+    let readme = include_str!("../../README.md");
+    for verb in Cli::command().get_subcommands() {
+        let row = format!("\n| `{} ", verb.get_name());
+        assert!(readme.contains(&row), "{row}");
+    }
+    for target in Target::ALL {
+        assert!(readme.contains(&format!("\n| `{target}` | ")), "{target}");
+    }
 }

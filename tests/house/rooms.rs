@@ -20,8 +20,8 @@ const ORDER: [&[&str]; 18] = [
     &["bed"],
     &["export"],
     &["report"],
-    &["cli"],
     &["command"],
+    &["cli"],
     &["capi"],
 ];
 

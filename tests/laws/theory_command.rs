@@ -1,8 +1,7 @@
 //! Command `theory`: the tables it prints, and what it refuses.
 
 use impactlaw::case::Case;
-use impactlaw::cli::TheoryArgs;
-use impactlaw::command::theory::table;
+use impactlaw::command::theory::{TheoryArgs, table};
 use std::path::Path;
 
 fn case() -> Case {

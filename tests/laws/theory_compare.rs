@@ -2,8 +2,9 @@
 
 use crate::impacts::{ELASTIC, MATERIAL, RADIUS, references, sample, summary};
 use impactlaw::case::Case;
-use impactlaw::cli::{CompareArgs, FitArgs};
-use impactlaw::command::{Context, compare, fit};
+use impactlaw::command::compare::CompareArgs;
+use impactlaw::command::fit::FitArgs;
+use impactlaw::command::{Command, Context};
 use impactlaw::compare::{Comparison, Row, SIMULATION};
 use impactlaw::contact::NormalLaw;
 use impactlaw::contact::rebound::{rebound, trajectory};
@@ -163,14 +164,14 @@ fn the_command_goes_from_impact_folders_and_a_law_file_to_both_files() {
         impacts: Some(impacts.clone()),
         out: None,
     };
-    fit::run(&fit_args, &context).unwrap();
+    fit_args.run(&context).unwrap();
     let args = CompareArgs {
         case,
         law: None,
         impacts: Some(impacts.clone()),
         out: None,
     };
-    compare::run(&args, &context).unwrap();
+    args.run(&context).unwrap();
 
     let table = std::fs::read_to_string(impacts.join("compare.md")).unwrap();
     let first = table

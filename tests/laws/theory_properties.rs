@@ -4,8 +4,8 @@ use approx::assert_relative_eq;
 use impactlaw::contact::rebound::{Rebound, rebound, trajectory};
 use impactlaw::contact::{LawVisitor, NormalLaw};
 use impactlaw::material::{Flow, Material};
-use impactlaw::theory::Theory;
 use impactlaw::theory::hertz::Hertz;
+use impactlaw::theory::{FORMULAS, Theory};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
@@ -252,8 +252,12 @@ fn plastic_theories_need_a_yield_strength_and_names_are_checked() {
         refusal.to_string().contains("material.yield_strength"),
         "{refusal}"
     );
-    assert!(Theory::Hertz.visit(&elastic, Loading(0.1)).is_ok());
+    assert_eq!(Theory::of(&elastic).collect::<Vec<_>>(), [Theory::Hertz]);
     for theory in Theory::ALL {
+        assert_eq!(
+            theory.needs_yield(),
+            theory.visit(&elastic, Loading(0.1)).is_err()
+        );
         assert_eq!(theory.name().parse::<Theory>().unwrap(), theory);
         assert_eq!(
             serde_json::to_string(&theory).unwrap(),
@@ -290,4 +294,28 @@ fn the_path_through_the_jumps_of_kogut_and_etsion_conserves_energy() {
     Theory::KogutEtsion
         .visit(&material(80.0, 0.35), Path(&material(80.0, 0.35)))
         .unwrap();
+}
+
+#[test]
+fn the_table_of_the_readme_is_the_list_of_theories_and_every_paper_stands_in_the_references() {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let read = |name: &str| std::fs::read_to_string(root.join(name)).unwrap();
+    let (readme, references) = (read("README.md"), read("references.bib"));
+    let models = Theory::ALL
+        .map(Theory::publication)
+        .into_iter()
+        .chain(FORMULAS);
+    let mut table = String::new();
+    for model in models {
+        let papers = model.papers.join(", ");
+        table += &format!("| `{}` | {} | {papers} |\n", model.name, model.summary);
+        assert!(!model.papers.is_empty(), "{}", model.name);
+        for paper in model.papers {
+            assert!(references.contains(&format!("{{{paper},\n")), "{paper}");
+        }
+    }
+    let fitted = readme.find("| `fitted` |").unwrap();
+    let first = fitted + readme[fitted..].find('\n').unwrap() + 1;
+    let last = first + readme[first..].find("\n\n").unwrap() + 1;
+    assert_eq!(&readme[first..last], table);
 }

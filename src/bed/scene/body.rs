@@ -7,6 +7,7 @@ use crate::Result;
 use crate::bed::bodies::{Body, Mobility, Solid};
 use crate::bed::mesh;
 use crate::document::Document;
+use crate::error::must_be_one_of;
 use crate::unit::{Angle, Length, Quantity};
 use parry3d::math::{Rotation, Vector};
 use serde::Deserialize;
@@ -144,15 +145,9 @@ impl BodyTable {
             return Ok(None);
         };
         let place = materials.iter().position(|material| material.name == *name);
-        let names: Vec<&str> = materials
-            .iter()
-            .map(|material| &material.name[..])
-            .collect();
         place.map(Some).ok_or_else(|| {
-            let allowed = format!(
-                "must be one of {}, or left out for a rigid body",
-                names.join(", ")
-            );
+            let names = materials.iter().map(|material| &material.name);
+            let allowed = format!("{}, or left out for a rigid body", must_be_one_of(names));
             at.reject("material", &allowed)
         })
     }

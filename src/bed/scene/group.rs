@@ -6,6 +6,7 @@ use crate::Result;
 use crate::bed::region::Region;
 use crate::bed::sizes::Sizes;
 use crate::document::Document;
+use crate::error::must_be_one_of;
 use crate::unit::{Length, Mass, MassRate, Quantity, Velocity};
 use parry3d::math::Vector;
 use serde::Deserialize;
@@ -216,17 +217,17 @@ impl GroupTable {
         materials: &[GrainMaterial],
     ) -> Result<usize> {
         let key = format!("{key}.material");
-        let names = || {
-            let names: Vec<&str> = materials.iter().map(|m| &m.name[..]).collect();
-            names.join(", ")
+        let refusal = || {
+            let names = materials.iter().map(|material| &material.name);
+            document.reject(&key, must_be_one_of(names))
         };
         match &self.material {
             None if materials.len() == 1 => Ok(0),
-            None => Err(document.reject(&key, format!("must be one of {}", names()))),
+            None => Err(refusal()),
             Some(name) => materials
                 .iter()
                 .position(|material| material.name == *name)
-                .ok_or_else(|| document.reject(&key, format!("must be one of {}", names()))),
+                .ok_or_else(refusal),
         }
     }
 

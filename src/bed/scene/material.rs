@@ -3,6 +3,7 @@
 use crate::bed::scene::FITTED;
 use crate::case::MaterialTable;
 use crate::document::Document;
+use crate::error::must_be_one_of;
 use crate::law::{AnyLaw, LawFile};
 use crate::material::Material;
 use crate::theory::Theory;
@@ -155,12 +156,13 @@ impl GrainMaterial {
                 &key,
                 "must be the law of this material; the file's constants differ: leave them to the file, or fit a law",
             )),
-            LawChoice::Theory(theory) if self.material.flow.is_none() && *theory != Theory::Hertz => {
-                Err(document.reject(
-                    &key,
-                    "needs a `yield_strength` beside it; an elastic grain has the law \"hertz\" only",
-                ))
-            }
+            LawChoice::Theory(theory) if !theory.applies_to(&self.material) => Err(document.reject(
+                &key,
+                format!(
+                    "needs a `yield_strength` beside it; an elastic grain has the law {} only",
+                    Theory::elastic('"')
+                ),
+            )),
             _ => Ok(()),
         }
     }
@@ -217,20 +219,21 @@ pub(super) fn check_laws(
     for (index, law) in laws.iter().enumerate() {
         let key = format!("laws[{index}]");
         if law != FITTED && law.parse::<Theory>().is_err() {
-            let names = Theory::ALL.map(Theory::name).join(", ");
-            return Err(document.reject(&key, format!("must be one of {FITTED}, {names}")));
+            let names = [FITTED].into_iter().chain(Theory::ALL.map(Theory::name));
+            return Err(document.reject(&key, must_be_one_of(names)));
         }
         if laws[..index].contains(law) {
             return Err(document.reject(&key, "must be named once"));
         }
-        let elastic = law == FITTED || law == Theory::Hertz.name();
-        if let Some(lacking) = materials
-            .iter()
-            .find(|m| m.material.flow.is_none() && !elastic)
-        {
+        let applies = |material: &Material| {
+            law.parse::<Theory>()
+                .map_or(true, |theory| theory.applies_to(material))
+        };
+        if let Some(lacking) = materials.iter().find(|m| !applies(&m.material)) {
             let allowed = format!(
-                "needs `{}.yield_strength`; an elastic grain has the law \"hertz\" only",
-                lacking.key
+                "needs `{}.yield_strength`; an elastic grain has the law {} only",
+                lacking.key,
+                Theory::elastic('"')
             );
             return Err(document.reject(&key, allowed));
         }

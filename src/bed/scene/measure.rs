@@ -4,6 +4,7 @@ use super::group::{RegionTable, vector};
 use crate::Result;
 use crate::bed::region::Region;
 use crate::document::Document;
+use crate::error::must_be_one_of;
 use crate::unit::{Length, Quantity};
 use serde::Deserialize;
 
@@ -106,8 +107,7 @@ impl MeasureTable {
             }),
             MeasureTable::Plunge { body } if bodies.contains(&body) => Measure::Plunge { body },
             MeasureTable::Plunge { .. } => {
-                let allowed = format!("must be one of {}", bodies.join(", "));
-                return Err(document.reject(&format!("{key}.body"), allowed));
+                return Err(document.reject(&format!("{key}.body"), must_be_one_of(bodies)));
             }
         })
     }

@@ -7,6 +7,7 @@ use super::stage::{Change, Duration, Move, RunStage, Stage, Until};
 use crate::Result;
 use crate::bed::motion::Motion;
 use crate::document::Document;
+use crate::error::must_be_one_of;
 use crate::unit::{Energy, Force, Length, Pressure, Quantity, Time, Velocity};
 use serde::Deserialize;
 
@@ -217,7 +218,7 @@ fn some<D>(at: &At, name: &str, quantity: Option<Quantity<D>>) -> Result<Option<
 
 fn one_of(at: &At, name: &str, wanted: &str, names: &[String]) -> Result<usize> {
     let place = names.iter().position(|name| name == wanted);
-    place.ok_or_else(|| at.reject(name, &format!("must be one of {}", names.join(", "))))
+    place.ok_or_else(|| at.reject(name, &must_be_one_of(names)))
 }
 
 fn at_least_one(at: &At, steps: u64) -> Result<u64> {

@@ -130,10 +130,10 @@ fn results(report: &BedReport) -> Table {
 fn line(run: &LawRun, value: fn(&Row) -> f64) -> Series {
     Series {
         label: run.law.clone(),
-        role: if run.law == FITTED {
-            Role::Law
-        } else {
-            Role::Theory
+        role: match run.law.parse::<Theory>() {
+            Ok(theory) => Role::Theory(theory.place()),
+            Err(_) if run.law == FITTED => Role::Law,
+            Err(_) => Role::Other,
         },
         mark: Mark::Line,
         points: run

@@ -15,9 +15,14 @@ use crate::contact::{LawVisitor, NormalLaw};
 use crate::law::{AnyLaw, LawFile};
 use crate::material::Material;
 use crate::report::page::Block;
-use crate::report::palette::Role;
+use crate::report::palette::{self, Role};
 use crate::report::table::Table;
 use crate::theory::Theory;
+
+const _: () = assert!(
+    Theory::ALL.len() <= palette::THEORIES.len(),
+    "every theory needs an ink of its own: add one to `palette::THEORIES`"
+);
 
 /// A law with the name and the rank it has in figures.
 pub struct NamedLaw {
@@ -39,17 +44,11 @@ pub fn laws(file: &LawFile, material: &Material) -> Result<Vec<NamedLaw>> {
         role: Role::Law,
         law: AnyLaw::Fitted(file.law()?),
     }];
-    let allowed = |theory: &Theory| material.flow.is_some() || *theory == Theory::Hertz;
-    laws.extend(
-        Theory::ALL
-            .into_iter()
-            .filter(allowed)
-            .map(|theory| NamedLaw {
-                name: theory.name().to_owned(),
-                role: Role::Theory,
-                law: AnyLaw::Theory(theory, *material),
-            }),
-    );
+    laws.extend(Theory::of(material).map(|theory| NamedLaw {
+        name: theory.name().to_owned(),
+        role: Role::Theory(theory.place()),
+        law: AnyLaw::Theory(theory, *material),
+    }));
     Ok(laws)
 }
 

@@ -8,7 +8,7 @@ use crate::bed::mixture::Mixture;
 use crate::bed::normals::{NormalModel, Squeeze};
 use crate::contact::pair::Pressed;
 use crate::export::portable::Portable;
-use crate::export::series;
+use crate::export::{c, series};
 use crate::law::AnyLaw;
 use std::path::Path;
 
@@ -18,14 +18,14 @@ const SMALLER: f64 = 0.4;
 /// Exports the contact of two laws, runs it along random paths and compares; files go into `scratch`, an existing folder.
 ///
 /// # Errors
-/// Those of [`series::export`], and of writing and running files.
+/// Those of [`c::export_with`], and of writing and running files.
 pub fn check(first: &Portable, second: &Portable, scratch: &Path) -> Result<Finding> {
     let compiler = match compiler() {
         Ok(compiler) => compiler,
         Err(why) => return Ok(Finding::Skipped { why }),
     };
     let text = series::named(include_str!("series_driver.c"), first, second);
-    let headers = series::export(first, second)?;
+    let headers = c::export_with(first, second)?;
     let driver = Driver::compile(&headers, &text, &compiler, scratch)?;
     let mut agreements = Vec::new();
     for (smaller, name) in [

@@ -1,6 +1,7 @@
 //! MDR: the method of dimensionality reduction of Zunker and Kamrin for one contact, without adhesion and bulk response.
 
 use crate::contact::NormalLaw;
+use crate::material::stress::Moduli;
 use crate::tape::keep_fields;
 use std::f64::consts::PI;
 
@@ -84,7 +85,7 @@ impl Mdr {
         );
         let half = 0.5 * a;
         let full = 0.25 * self.modulus() * a * b * (1.0 - 2.0 * half / a).acos();
-        let shear = self.young_modulus / (2.0 * (1.0 + self.poisson_ratio));
+        let shear = Moduli::new(self.young_modulus, self.poisson_ratio).shear;
         let depth = 1.0 - (most - half);
         let slant = (radius * radius + depth * depth).sqrt();
         let nu = self.poisson_ratio;

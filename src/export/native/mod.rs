@@ -16,6 +16,8 @@ pub use summary::files;
 
 use super::portable::Portable;
 use crate::contact::rebound::{Rebound, rebound};
+use crate::export::Artifact;
+use crate::export::dialect::{Dialect, PairExport};
 use crate::law::Form;
 use crate::theory::luding::Luding;
 use crate::theory::walton_braun::WaltonBraun;
@@ -26,6 +28,19 @@ use thornton_ning::ThorntonNing;
 
 /// Flattening of the limit branch of Luding's model over the deepest impact: beyond the range, or it would stiffen within.
 const LIMIT_DEPTH: f64 = 1.1;
+
+/// Models that codes ship, fitted to the law.
+#[derive(Debug, Clone, Copy)]
+pub struct Native;
+
+impl Dialect for Native {
+    const NAME: &'static str = "native";
+    const PAIR: Option<PairExport> = None;
+
+    fn export(law: &Portable) -> Result<Vec<Artifact>> {
+        files(law)
+    }
+}
 
 /// A model of a code with its numbers; stiffnesses are over R (Pa), for one body.
 #[derive(Debug, Clone, Copy, PartialEq)]
