@@ -5,9 +5,6 @@ use super::published::{Published, PublishedLaw, Restitution};
 use super::spring::Springs;
 use crate::material::Material;
 
-/// Plasticity depth $\phi_f$ of the paper: limit of the residual overlap over the reduced radius.
-const PLASTICITY_DEPTH: f64 = 0.05;
-
 /// Adhesive elasto-plastic springs of Luding, here without the adhesive branch ($k_c = 0$).
 ///
 /// $$ F = k_1 \delta \ (\delta \le \delta^\ast), \quad F = \hat k_2 (\delta - \delta^\ast_r) \ (\delta > \delta^\ast), \quad
@@ -16,11 +13,16 @@ const PLASTICITY_DEPTH: f64 = 0.05;
 /// $$ \text{unloading:}\quad F = k_2 (\delta - \delta_r), \quad \delta_r = \delta_m\left(1 - \frac{k_1}{k_2}\right), \quad
 ///    k_2 = k_1 + (\hat k_2 - k_1) \frac{\delta_m}{\delta^\ast} $$
 ///
-/// Source: Luding 2008, Granular Matter 10, 235 (as documented by LAMMPS); $\phi_f = 0.05$. Past $\delta^\ast$ the
-/// contact is elastic on the limit branch. One body here is half of a pair of equal spheres, so its limit residual
-/// is $\phi_f R/2$: in series two such bodies are the published pair law; a wall is then a mirror (codes differ
-/// there). Stiffnesses from a material: [`Springs`], with $\hat k_2$ the reference $k_2$ (unverified choice: the
-/// paper leaves them free). Contact radius: that of Hertz.
+/// Source: Luding 2008, Granular Matter 10, 235 (as documented by LAMMPS). Past $\delta^\ast$ the contact is elastic on the
+/// limit branch, so e rises again. One body here is half of a pair of equal spheres, so its limit residual is
+/// $\phi_f R/2$: in series two such bodies are the published pair law; a wall is then a mirror (codes differ there).
+/// Contact radius: that of Hertz.
+///
+/// The paper leaves stiffnesses and $\phi_f$ free; [`Luding::of`] takes them from the material. $k_2$ is that of
+/// [`Springs`] after an impact at the reference speed, so that e is Johnson's there, and it grows up to the end of his range
+/// of moderate plasticity: $\delta^\ast$ is the flattening of $\rho V^2/Y = 0.1$, whatever the material. Up to there, without adhesion,
+/// this is the law of Walton and Braun with a growing $k_2$. A $\phi_f$ fixed
+/// instead, such as 0.05, is used up by slower impacts; beyond it e is near 1 for every $\hat k_2$.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Luding {
     loading: f64,
@@ -30,13 +32,7 @@ pub struct Luding {
 }
 
 impl Luding {
-    /// Law from $k_1/R$ and $\hat k_2/R$ (Pa); $\hat k_2 = k_1$ is a linear elastic spring.
-    #[must_use]
-    pub fn new(loading: f64, limit: f64) -> Self {
-        Self::with_depth(loading, limit, PLASTICITY_DEPTH)
-    }
-
-    /// The same with another plasticity depth $\phi_f$.
+    /// Law from $k_1/R$, $\hat k_2/R$ (Pa) and the plasticity depth $\phi_f$ of two equal spheres.
     #[must_use]
     pub fn with_depth(loading: f64, limit: f64, depth: f64) -> Self {
         let limit_residual = 0.5 * depth;
@@ -52,7 +48,14 @@ impl Luding {
     #[must_use]
     pub fn of(material: &Material) -> Option<Self> {
         let springs = Springs::of(material)?;
-        Some(Self::new(springs.loading, springs.unloading))
+        let growth = (springs.unloading - springs.loading) / springs.flattening;
+        let limit = springs.loading + growth * springs.limit;
+        Some(Self {
+            loading: springs.loading,
+            limit,
+            limit_flattening: springs.limit,
+            limit_residual: springs.limit * (1.0 - springs.loading / limit),
+        })
     }
 
     /// Unloading stiffness over R (Pa) after a largest flattening `peak`.
@@ -61,26 +64,33 @@ impl Luding {
         self.loading + (self.limit - self.loading) * share
     }
 
-    /// Coefficient of restitution at speed `velocity` (m/s), from the energies of the two springs:
+    /// Coefficient of restitution at speed `velocity` (m/s), from the energies of the springs, with
+    /// $\delta_m = V\sqrt{m/k_1}$:
     ///
-    /// $$ e = \sqrt{k_1/k_2(\delta_m)}, \quad \delta_m = V\sqrt{m/k_1} \le \delta^\ast $$
+    /// $$ e = \sqrt{k_1/k_2(\delta_m)} \ (\delta_m \le \delta^\ast), \qquad
+    ///    e = \sqrt{1 - \left(1 - \frac{k_1}{\hat k_2}\right)\left(\frac{\delta^\ast}{\delta_m}\right)^2} $$
     ///
-    /// `None` past the limit branch. Derived here; the paper gives the springs only.
+    /// Derived here; the paper gives the springs only.
     #[must_use]
-    pub fn restitution(&self, material: &Material, velocity: f64) -> Option<f64> {
+    pub fn restitution(&self, material: &Material, velocity: f64) -> f64 {
         let peak = velocity * (material.sphere_mass(1.0) / self.loading).sqrt();
-        (peak <= self.limit_flattening).then(|| (self.loading / self.stiffness_after(peak)).sqrt())
+        if peak <= self.limit_flattening {
+            return (self.loading / self.stiffness_after(peak)).sqrt();
+        }
+        // all that is lost is lost up to the limit branch
+        let share = (self.limit_flattening / peak).powi(2);
+        (1.0 - (1.0 - self.loading / self.limit) * share).sqrt()
     }
 }
 
 impl Published for Luding {
     const NAME: &'static str = "luding";
     const SUMMARY: &'static str =
-        "linear; unloading stiffness grows with the largest flattening; without adhesion";
+        "linear; as `walton-braun-variable` up to ρV²/Y = 0.1, elastic beyond; without adhesion";
     const PAPERS: &'static [&'static str] = &["Luding2008"];
-    const REFERENCE: &'static str = "Luding 2008, Granular Matter 10, 235, without adhesion; k1 = 5 R Y (Walton 2006), limit stiffness from Johnson's e at rho V^2/Y = 0.01";
+    const REFERENCE: &'static str = "Luding 2008, Granular Matter 10, 235, without adhesion; k1 = 5 R Y (Walton 2006), k2 from Johnson's e at rho V^2/Y = 0.01, limit branch from 0.1 on";
     const RESTITUTION: Option<Restitution> =
-        Some(|material, velocity| Luding::of(material)?.restitution(material, velocity));
+        Some(|material, velocity| Some(Luding::of(material)?.restitution(material, velocity)));
 }
 
 impl PublishedLaw for Luding {

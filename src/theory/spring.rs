@@ -9,6 +9,9 @@ const LOADING_RATIO: f64 = 5.0;
 /// plasticity, 1e-3 to 1e-1.
 const REFERENCE_DAMAGE_NUMBER: f64 = 1e-2;
 
+/// Damage number from which on no spring stiffens any more: the end of that range.
+const LIMIT_DAMAGE_NUMBER: f64 = 1e-1;
+
 /// Stiffnesses of a body over its radius (Pa), so that the springs stay geometrically similar.
 ///
 /// - $k_1 = 5 R^\ast Y$: the practice of discrete-element codes (Walton 2006, as documented for the hysteretic spring
@@ -24,6 +27,8 @@ pub struct Springs {
     pub unloading: f64,
     /// Flattening $\delta/R$ that the reference impact reaches on $k_1$.
     pub flattening: f64,
+    /// Flattening $\delta/R$ that an impact at the end of the range reaches on $k_1$.
+    pub limit: f64,
 }
 
 impl Springs {
@@ -32,12 +37,15 @@ impl Springs {
     pub fn of(material: &Material) -> Option<Self> {
         let y = material.flow?.yield_strength;
         let loading = LOADING_RATIO * y;
-        let velocity = (REFERENCE_DAMAGE_NUMBER * y / material.density).sqrt();
+        let speed = |damage_number: f64| (damage_number * y / material.density).sqrt();
+        let reached = |velocity: f64| velocity * (material.sphere_mass(1.0) / loading).sqrt();
+        let velocity = speed(REFERENCE_DAMAGE_NUMBER);
         let e = johnson::restitution(material, velocity).unwrap_or(1.0);
         Some(Self {
             loading,
             unloading: loading / (e * e),
-            flattening: velocity * (material.sphere_mass(1.0) / loading).sqrt(),
+            flattening: reached(velocity),
+            limit: reached(speed(LIMIT_DAMAGE_NUMBER)),
         })
     }
 }

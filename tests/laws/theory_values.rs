@@ -7,6 +7,7 @@ use crate::impacts::{MATERIAL, RADIUS};
 use approx::assert_relative_eq;
 use impactlaw::contact::rebound::{Rebound, rebound};
 use impactlaw::contact::{LawVisitor, NormalLaw};
+use impactlaw::material::{Flow, Material};
 use impactlaw::theory::{FORMULAS, Theory};
 use std::f64::consts::PI;
 
@@ -24,12 +25,21 @@ impl LawVisitor for Force {
     }
 }
 
+struct ImpactOf<'a>(&'a Material, f64);
+
+impl LawVisitor for ImpactOf<'_> {
+    type Output = Rebound;
+    fn visit<L: NormalLaw>(self, law: &L) -> Rebound {
+        rebound(law, RADIUS, self.0.sphere_mass(RADIUS), self.1)
+    }
+}
+
 struct Impact(f64);
 
 impl LawVisitor for Impact {
     type Output = Rebound;
     fn visit<L: NormalLaw>(self, law: &L) -> Rebound {
-        rebound(law, RADIUS, MATERIAL.sphere_mass(RADIUS), self.0)
+        ImpactOf(&MATERIAL, self.0).visit(law)
     }
 }
 
@@ -253,6 +263,32 @@ fn closed_forms_of_thornton_and_the_springs_equal_the_integral() {
                     "{theory} at {velocity}: {e} and {closed}"
                 );
             }
+        }
+    }
+}
+
+#[test]
+fn spring_laws_have_the_restitution_of_johnson_at_the_damage_number_they_are_made_for() {
+    for stiffness_ratio in [20.0, 33.0, 40.0, 80.0, 200.0, 630.0, 2e3, 6e3, 2e4] {
+        let strength = 100e9 / stiffness_ratio;
+        let mut material = MATERIAL;
+        material.flow = Some(Flow {
+            yield_strength: strength,
+            hardening_modulus: 0.0,
+        });
+        let velocity = (0.01 * strength / material.density).sqrt();
+        let ratio: f64 = strength / material.contact_modulus();
+        let johnson = 3.8 * (2.0 * PI / 3.0 * 0.01_f64).powf(-0.125) * ratio.sqrt();
+        for theory in [
+            Theory::WaltonBraun,
+            Theory::WaltonBraunVariable,
+            Theory::Luding,
+        ] {
+            let hit = theory
+                .visit(&material, ImpactOf(&material, velocity))
+                .unwrap();
+            // where his formula exceeds 1 nothing is plastic yet
+            assert_relative_eq!(hit.restitution, johnson.min(1.0), max_relative = 1e-12);
         }
     }
 }
