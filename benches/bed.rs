@@ -7,14 +7,14 @@
 mod packing;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use impactlaw::bed::damping::Viscous;
-use impactlaw::bed::friction::Mindlin;
-use impactlaw::bed::law::{ContactLaw, Law};
-use impactlaw::bed::normals::Model;
-use impactlaw::bed::step::{Bed, Normals, Parts};
-use impactlaw::bed::time_step::rayleigh_time;
+use impactlaw::bed::stages::time_step::rayleigh_time;
 use impactlaw::contact::pair::{Flat, Twins};
 use impactlaw::contact::{LawVisitor, NormalLaw};
+use impactlaw::dem::dynamics::{Bed, Normals, Parts};
+use impactlaw::dem::force::damping::Viscous;
+use impactlaw::dem::force::effects::{ContactLaw, Law};
+use impactlaw::dem::force::friction::Mindlin;
+use impactlaw::dem::force::normal::Model;
 use impactlaw::law::LawFile;
 use impactlaw::law::file::Form;
 use impactlaw::material::YIELD_PRESSURE_RATIO;

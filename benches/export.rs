@@ -7,7 +7,7 @@
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use impactlaw::export::check::driver::{Driver, compiler};
 use impactlaw::export::check::paths;
-use impactlaw::export::portable::Portable;
+use impactlaw::export::source::portable::Portable;
 use impactlaw::law::file::HertzTable;
 use impactlaw::law::{Form, LawFile};
 use std::hint::black_box;

@@ -3,9 +3,10 @@
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use impactlaw::impact::kernel::Purpose;
-use impactlaw::impact::patch::Frictionless;
-use impactlaw::impact::setup::build;
-use impactlaw::impact::solid::{self, Mesh};
+use impactlaw::impact::model::build;
+use impactlaw::impact::model::solid;
+use impactlaw::impact::model::solid::Mesh;
+use impactlaw::impact::wall::surface::Frictionless;
 use impactlaw::material::flow::PerfectlyPlastic;
 use impactlaw::material::stress::{Constitutive, Elastic, J2, Moduli};
 use impactlaw::plan::{Geometry, Grid};

@@ -21,6 +21,7 @@ pub mod compare;
 pub mod contact;
 pub mod cost;
 pub mod curve;
+pub mod dem;
 pub mod document;
 pub mod error;
 pub mod export;

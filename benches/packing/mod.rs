@@ -1,9 +1,9 @@
 //! The packing all benches of the bed share: 10 000 settled spheres in a box, see `benches/data/README.md`.
 
-use impactlaw::bed::grains::Grains;
-use impactlaw::bed::machine::Machine;
-use impactlaw::bed::neighbours::Cells;
-use impactlaw::bed::room::Room;
+use impactlaw::dem::bodies::enclosure::Room;
+use impactlaw::dem::bodies::machine::Machine;
+use impactlaw::dem::grains::Grains;
+use impactlaw::dem::grains::neighbours::Cells;
 use impactlaw::material::{Flow, Material};
 use parry3d::math::Vector;
 

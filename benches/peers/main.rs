@@ -6,13 +6,13 @@
 mod packing;
 
 use clap::Parser;
-use impactlaw::bed::damping::Viscous;
-use impactlaw::bed::friction::Mindlin;
-use impactlaw::bed::grains::Grains;
-use impactlaw::bed::law::Law;
-use impactlaw::bed::normals::Model;
-use impactlaw::bed::step::{Bed, Normals, Parts};
 use impactlaw::contact::pair::{Flat, Twins};
+use impactlaw::dem::dynamics::{Bed, Normals, Parts};
+use impactlaw::dem::force::damping::Viscous;
+use impactlaw::dem::force::effects::Law;
+use impactlaw::dem::force::friction::Mindlin;
+use impactlaw::dem::force::normal::Model;
+use impactlaw::dem::grains::Grains;
 use impactlaw::theory::hertz::Hertz;
 use packing::{GRAVITY, MATERIAL, RADIUS};
 use parry3d::math::Vector;

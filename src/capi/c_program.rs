@@ -3,7 +3,7 @@
 use impactlaw::contact::{LawVisitor, NormalLaw};
 use impactlaw::export::check::driver::{FLAGS, compiler};
 use impactlaw::export::check::{Ran, paths, run};
-use impactlaw::export::portable::Portable;
+use impactlaw::export::source::portable::Portable;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 

@@ -5,7 +5,7 @@
 
 use impactlaw::contact::pair::{Alike, Flat, Press};
 use impactlaw::contact::{LawVisitor, NormalLaw};
-use impactlaw::export::portable::Portable;
+use impactlaw::export::source::portable::Portable;
 use std::ffi::{CStr, OsStr, c_char};
 use std::path::Path;
 

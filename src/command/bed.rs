@@ -2,8 +2,8 @@
 
 use super::bed_export::BedExportArgs;
 use super::impact::interval;
-use super::{Command, Context, Verdict, output_folder, print};
-use crate::bed::gauge::Finding;
+use super::{Command, Context, Verdict, on_a_worker, output_folder, print};
+use crate::bed::measures::gauge::Finding;
 use crate::bed::run::{BedReport, Options, run_scene};
 use crate::bed::scene::{Scene, Stage};
 use crate::law::LawFile;
@@ -127,16 +127,6 @@ pub fn rows_expected(scene: &Scene) -> u64 {
     let prepare = scene.stages.iter().filter(|stage| stage.prepares()).count();
     let each = scene.stages.len() - prepare;
     (scene.output.rows * (prepare + each * scene.laws.len())) as u64
-}
-
-/// Runs `work` on a thread of the pool, so that its parallel loops need no change of threads.
-pub(super) fn on_a_worker<T: Send>(work: impl FnOnce() -> Result<T> + Send) -> Result<T> {
-    let mut result = Err(Error::Bed {
-        step: 0,
-        reason: "the thread pool ended before the run".to_owned(),
-    });
-    rayon::scope(|_| result = work());
-    result
 }
 
 /// What came out, as text: a table of the laws, then what the measures have found and what has to be known.

@@ -1,10 +1,9 @@
 //! `bed export`: a scene file to the packing, walls, law and input script of a code that runs it on many processors.
 
-use super::bed::on_a_worker;
-use super::{Command, Context, Verdict, output_folder, print};
+use super::{Command, Context, Verdict, on_a_worker, output_folder, print};
 use crate::Result;
-use crate::bed::packing::packed;
 use crate::bed::run::Options;
+use crate::bed::run::packing::packed;
 use crate::bed::scene::Scene;
 use crate::export::scene::{self, Code};
 use crate::files::write_atomic;

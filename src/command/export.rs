@@ -1,9 +1,10 @@
 //! `export`: a law file to the files of other codes, and the check that they hold the same law.
 
 use super::{Command, Context, Verdict, output_folder, print};
+use crate::export::Target;
 use crate::export::check::{self, Finding};
-use crate::export::portable::Portable;
-use crate::export::{Artifact, Target};
+use crate::export::source::artifact::Artifact;
+use crate::export::source::portable::Portable;
 use crate::files::write_atomic;
 use crate::law::Form;
 use crate::{Error, Result};

@@ -1,38 +1,25 @@
 //! Export: a fitted law in the languages of other discrete-element codes, and the proof that it is the same law there.
 //!
-//! A law file becomes a [`portable::Portable`]; [`kernel`] writes it once in C, and each dialect, one file a target, wraps
-//! that text in what its code asks for. A new target is a new file with its [`dialect::Dialect`], its `mod` line and one line
+//! A law file becomes a [`source::portable::Portable`]; [`c::kernel`] writes it once in C, and each dialect, one file a target, wraps
+//! that text in what its code asks for. A new target is a new file with its [`source::dialect::Dialect`], its `mod` line and one line
 //! of the list of [`Target`]. What could be executed is executed by [`check`].
+
+pub mod source;
 
 pub mod c;
 pub mod check;
-pub mod contact;
 pub mod deme;
-pub mod describe;
-pub mod dialect;
-pub mod kernel;
 pub mod lammps;
 pub mod liggghts;
 pub mod mercurydpm;
 pub mod native;
-pub mod portable;
-pub mod reference;
 pub mod scene;
-pub mod series;
 pub mod table;
 
+use self::source::artifact::Artifact;
+use self::source::dialect::{Dialect, PairExport};
+use self::source::portable::Portable;
 use crate::{Error, Result};
-use dialect::{Dialect, PairExport};
-use portable::Portable;
-
-/// A text file of an export.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Artifact {
-    /// File name, relative to the output folder.
-    pub name: String,
-    /// Content.
-    pub text: String,
-}
 
 /// Makes [`Target`] from the list of dialects.
 macro_rules! targets {

@@ -1,10 +1,10 @@
 //! Target `table`: F(delta; delta_max) of a body of radius 1 m as CSV, for codes that interpolate.
 
-use super::describe;
-use super::portable::Portable;
 use crate::Result;
-use crate::export::Artifact;
-use crate::export::dialect::{Dialect, PairExport};
+use crate::export::source::artifact::Artifact;
+use crate::export::source::describe;
+use crate::export::source::dialect::{Dialect, PairExport};
+use crate::export::source::portable::Portable;
 use std::fmt::Write;
 
 /// Largest displacements of the table, up to the end of the law's range.

@@ -1,14 +1,14 @@
 //! Choice: flow stress, degree and scheme of a plan become concrete types once, before the loop.
 
-use super::CONTACT_TOLERANCE;
-use super::contact::Wall;
-use super::patch::{Coulomb, Frictionless, MEMORY};
-use super::record::Record;
-use super::remap::{Apic, Blend, Carriers};
-use super::run::{Run, incident};
-use super::setup::{self, Model};
-use super::solid::{self, Mesh};
-use super::updated::Updated;
+use crate::impact::model::solid::{self, Mesh};
+use crate::impact::model::{self, Model};
+use crate::impact::run::record::Record;
+use crate::impact::run::transfer::{Apic, Blend, Carriers};
+use crate::impact::run::{Run, incident};
+use crate::impact::updated::Updated;
+use crate::impact::wall::CONTACT_TOLERANCE;
+use crate::impact::wall::meridian::Wall;
+use crate::impact::wall::surface::{Coulomb, Frictionless, MEMORY};
 use crate::material::Flow;
 use crate::material::flow::{FlowStress, LinearHardening, PerfectlyPlastic};
 use crate::material::stress::{Constitutive, J2, Moduli};
@@ -18,7 +18,7 @@ use crate::space::{Axisymmetric, Solid, Space};
 use crate::tape::{Checkpoint, Keeper};
 
 /// What is to be run.
-pub(super) struct Job<'a> {
+pub(in crate::impact) struct Job<'a> {
     /// The plan.
     pub plan: &'a Plan,
     /// Impact speed in run units.
@@ -35,7 +35,12 @@ impl Job<'_> {
 }
 
 /// The flow stress that the material calls for.
-pub(super) fn run_plastic(moduli: Moduli, flow: &Flow, unit: f64, job: &Job) -> Vec<Record> {
+pub(in crate::impact) fn run_plastic(
+    moduli: Moduli,
+    flow: &Flow,
+    unit: f64,
+    job: &Job,
+) -> Vec<Record> {
     fn with<F: FlowStress>(moduli: Moduli, flow: F, job: &Job) -> Vec<Record> {
         run_geometry(J2 { moduli, flow }, job)
     }
@@ -49,7 +54,7 @@ pub(super) fn run_plastic(moduli: Moduli, flow: &Flow, unit: f64, job: &Job) -> 
 }
 
 /// The space, and in three dimensions the friction, that the plan calls for.
-pub(super) fn run_geometry<M: Constitutive<Axisymmetric> + Constitutive<Solid>>(
+pub(in crate::impact) fn run_geometry<M: Constitutive<Axisymmetric> + Constitutive<Solid>>(
     material: M,
     job: &Job,
 ) -> Vec<Record> {
@@ -107,15 +112,15 @@ fn run_section<M: Constitutive<Axisymmetric>>(material: M, job: &Job) -> Vec<Rec
     let tolerance = CONTACT_TOLERANCE * speed;
     match grid.degree {
         1 => run_transfer(
-            setup::build::<M, 1, 4>(grid, layout, material, tolerance),
+            model::build::<M, 1, 4>(grid, layout, material, tolerance),
             job,
         ),
         2 => run_transfer(
-            setup::build::<M, 2, 9>(grid, layout, material, tolerance),
+            model::build::<M, 2, 9>(grid, layout, material, tolerance),
             job,
         ),
         _ => run_transfer(
-            setup::build::<M, 3, 16>(grid, layout, material, tolerance),
+            model::build::<M, 3, 16>(grid, layout, material, tolerance),
             job,
         ),
     }

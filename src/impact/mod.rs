@@ -3,41 +3,25 @@
 //! Runs in units R = 1, rho = 1, E = 1. Displacements and velocities live on the nodes of a grid that never moves, so
 //! there is no velocity transfer and no transfer loss; points carry only their plastic state.
 
-pub mod ball;
-pub mod banded;
-pub mod basis;
-pub mod body;
+pub mod grid;
+pub mod model;
+pub mod points;
+pub mod stepping;
+
 mod choice;
-pub mod contact;
-pub mod deformation;
-mod erosion;
-pub mod homes;
 pub mod kernel;
-pub mod lattice;
-mod local;
-pub mod patch;
-pub mod record;
-pub mod remap;
 mod run;
-pub mod section;
-pub mod setup;
-pub mod solid;
-pub mod timestep;
 pub mod updated;
-pub mod volume;
 pub mod wall;
 
 use self::choice::Job;
-use self::record::Record;
+use self::run::record::Record;
 use crate::curve::{Impact, ParticleMap, Status};
 use crate::material::Material;
 use crate::material::stress::{Elastic, Moduli};
 use crate::plan::Plan;
 use crate::scheme::Scheme;
 use crate::tape::Checkpoint;
-
-/// Contact violation that counts as solved, in impact speeds.
-const CONTACT_TOLERANCE: f64 = 1e-7;
 
 /// What a simulated impact leaves: curve, figures and the particle at two moments.
 #[derive(Debug, Clone, PartialEq)]

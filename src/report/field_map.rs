@@ -1,24 +1,11 @@
 //! Field map: a scalar over the deformed cross-section of an axisymmetric particle, as SVG with a raster inside.
 
 use super::markup::{escape, png_url};
-use super::raster::{LEVELS, Raster, SIZE, level_colour};
+use super::raster::{FieldPoint, LEVELS, Raster, SIZE, level_colour};
 use super::scale::{Axis, Scale};
 use crate::unit::{engineering, prefixed};
 use crate::{Error, Result};
 use std::fmt::Write;
-
-/// Value carried by one cell or material point, in the deformed body.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FieldPoint {
-    /// Distance from the axis, m.
-    pub r: f64,
-    /// Height above the wall, m.
-    pub z: f64,
-    /// Edge length of the patch it stands for, m.
-    pub size: f64,
-    /// Value, SI.
-    pub value: f64,
-}
 
 /// Scalar field over the particle.
 #[derive(Debug, Clone, PartialEq)]

@@ -8,7 +8,7 @@ pub mod figure;
 mod markup;
 pub mod page;
 pub mod palette;
-mod raster;
+pub mod raster;
 pub mod run_page;
 pub mod scale;
 pub mod table;

@@ -1,7 +1,19 @@
 //! Raster: the values of a field map on pixels, bounded by the particle's outline, as a PNG.
 
-use super::field_map::FieldPoint;
 use super::palette::{Rgb, viridis};
+
+/// Value carried by one cell or material point, in the deformed body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FieldPoint {
+    /// Distance from the axis, m.
+    pub r: f64,
+    /// Height above the wall, m.
+    pub z: f64,
+    /// Edge length of the patch it stands for, m.
+    pub size: f64,
+    /// Value, SI.
+    pub value: f64,
+}
 
 /// Width and height of the raster, px; even, the right half is computed and mirrored.
 pub(super) const SIZE: (usize, usize) = (440, 440);

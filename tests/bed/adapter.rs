@@ -1,16 +1,17 @@
 //! Adapter: the same laws in a plain rapier scene move bodies as the bed moves grains.
 
-use impactlaw::bed::adapter::Ruled;
-use impactlaw::bed::bodies::Body;
-use impactlaw::bed::damping::Viscous;
-use impactlaw::bed::friction::{Mindlin, RollingSpring};
-use impactlaw::bed::grains::Grains;
-use impactlaw::bed::law::{ContactLaw, Law};
-use impactlaw::bed::machine::Machine;
-use impactlaw::bed::normals::Model;
-use impactlaw::bed::step::{Bed, Normals, Parts};
 use impactlaw::contact::NormalLaw;
 use impactlaw::contact::pair::{Alike, Flat};
+use impactlaw::dem::adapter::Ruled;
+use impactlaw::dem::bodies::Body;
+use impactlaw::dem::bodies::machine::Machine;
+use impactlaw::dem::dynamics::{Bed, Normals, Parts};
+use impactlaw::dem::force::damping::Viscous;
+use impactlaw::dem::force::effects::{ContactLaw, Law};
+use impactlaw::dem::force::friction::Mindlin;
+use impactlaw::dem::force::normal::Model;
+use impactlaw::dem::force::rolling::RollingSpring;
+use impactlaw::dem::grains::Grains;
 use impactlaw::material::{Flow, Material, YIELD_PRESSURE_RATIO};
 use impactlaw::theory::hertz::Hertz;
 use impactlaw::theory::thornton::Thornton;
@@ -89,7 +90,7 @@ fn scene<L: NormalLaw, C: ContactLaw>(
     world.gravity = GRAVITY;
     let mut laws = Ruled::new(law.clone(), effects, RADIUS, &mut world);
     for wall in walls() {
-        let impactlaw::bed::bodies::Solid::Cuboid(half) = wall.solid else {
+        let impactlaw::dem::bodies::Solid::Cuboid(half) = wall.solid else {
             panic!("walls are blocks")
         };
         let body = RigidBodyBuilder::fixed().translation(wall.centre);

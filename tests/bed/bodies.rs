@@ -1,14 +1,15 @@
 //! Grains and bodies: momentum, sliding over meshes, rolling to rest, and the weight of a lid on a joint.
 
-use impactlaw::bed::bodies::{Body, Freedom, Mobility, Solid};
-use impactlaw::bed::damping::Viscous;
-use impactlaw::bed::friction::{Mindlin, RollingSpring};
-use impactlaw::bed::grains::Grains;
-use impactlaw::bed::law::{ContactLaw, Law};
-use impactlaw::bed::machine::Machine;
-use impactlaw::bed::normals::Model;
-use impactlaw::bed::step::{Bed, Normals, Parts};
 use impactlaw::contact::pair::{Flat, Twins};
+use impactlaw::dem::bodies::machine::Machine;
+use impactlaw::dem::bodies::{Body, Freedom, Mobility, Solid};
+use impactlaw::dem::dynamics::{Bed, Normals, Parts};
+use impactlaw::dem::force::damping::Viscous;
+use impactlaw::dem::force::effects::{ContactLaw, Law};
+use impactlaw::dem::force::friction::Mindlin;
+use impactlaw::dem::force::normal::Model;
+use impactlaw::dem::force::rolling::RollingSpring;
+use impactlaw::dem::grains::Grains;
 use impactlaw::material::Material;
 use impactlaw::theory::hertz::Hertz;
 use parry3d::math::{Rotation, Vector};
@@ -74,6 +75,7 @@ fn grains_and_a_free_block_keep_their_momentum() {
         centre: Vector::new(0.0, 0.0, -2e-3),
         rotation: Rotation::IDENTITY,
         mobility: Mobility::Free(Freedom::of_mass(1e-3)),
+        material: None,
     };
     let mut bed = weightless(frictional(), grains, vec![block], Vector::ZERO);
     let momentum = |bed: &Bed<Frictional>| {
@@ -120,6 +122,7 @@ fn slid(solid: Solid, steps: usize) -> Bed<Frictional> {
         centre,
         rotation: Rotation::IDENTITY,
         mobility: Mobility::Fixed,
+        material: None,
     };
     let mut bed = weightless(
         frictional(),
@@ -210,6 +213,7 @@ fn a_lid_on_a_prismatic_joint_rests_on_grains_with_its_weight() {
         centre: Vector::new(0.0, 0.0, z),
         rotation: Rotation::IDENTITY,
         mobility,
+        material: None,
     };
     let lid = Mobility::Free(Freedom::of_mass(1e-3).sliding(Vector::Z));
     let bodies = vec![

@@ -1,14 +1,14 @@
 //! Two bodies: what tests of single impacts in the bed share.
 
-use impactlaw::bed::bodies::{Body, Mobility, Solid};
-use impactlaw::bed::grains::Grains;
-use impactlaw::bed::law::{ContactLaw, Law};
-use impactlaw::bed::machine::Machine;
-use impactlaw::bed::normals::{Model, NormalModel};
-use impactlaw::bed::step::{Bed, Normals, Parts};
 use impactlaw::contact::NormalLaw;
 use impactlaw::contact::pair::{Flat, Press, Twins};
 use impactlaw::contact::rebound::rebound;
+use impactlaw::dem::bodies::machine::Machine;
+use impactlaw::dem::bodies::{Body, Mobility, Solid};
+use impactlaw::dem::dynamics::{Bed, Normals, Parts};
+use impactlaw::dem::force::effects::{ContactLaw, Law};
+use impactlaw::dem::force::normal::{Model, NormalModel};
+use impactlaw::dem::grains::Grains;
 use impactlaw::material::{Flow, Material};
 use parry3d::math::{Rotation, Vector};
 
@@ -134,6 +134,7 @@ pub fn floor(mobility: Mobility) -> Machine {
         centre: Vector::new(0.0, 0.0, -edge),
         rotation: Rotation::IDENTITY,
         mobility,
+        material: None,
     };
     Machine::new(vec![body], Vector::ZERO, RADIUS).unwrap()
 }

@@ -1,13 +1,13 @@
 //! Files and measures of a bed: closed forms, sums that must agree, and files that other readers take.
 
 use crate::scene_run;
-use impactlaw::bed::contact_row::{ContactRow, Other};
-use impactlaw::bed::dump;
-use impactlaw::bed::fabric::{Fabric, FabricRow};
-use impactlaw::bed::grains::Grains;
-use impactlaw::bed::machine::Machine;
+use impactlaw::bed::measures::fabric::{Fabric, FabricRow};
+use impactlaw::bed::record::dump;
 use impactlaw::bed::run::BedReport;
 use impactlaw::bed::scene::Scene;
+use impactlaw::dem::bodies::machine::Machine;
+use impactlaw::dem::dynamics::contact::{ContactRow, Other};
+use impactlaw::dem::grains::Grains;
 use parry3d::math::Vector;
 use std::collections::BTreeMap;
 use std::path::Path;

@@ -1,17 +1,19 @@
 //! Many grains: the same bits for any number of threads, and whole scenes.
 
 use crate::scene_run::{quiet, run};
-use impactlaw::bed::damping::Viscous;
-use impactlaw::bed::friction::{Mindlin, RollingSpring, Slider};
-use impactlaw::bed::insertion::insert;
-use impactlaw::bed::law::Law;
-use impactlaw::bed::machine::Machine;
-use impactlaw::bed::normals::Model;
+use impactlaw::bed::filling::insert;
 use impactlaw::bed::run::{BedReport, Options, run_scene};
 use impactlaw::bed::scene::{Amount, Scene};
-use impactlaw::bed::step::{Bed, Normals, Parts};
 use impactlaw::contact::NormalLaw;
 use impactlaw::contact::pair::{Flat, Twins};
+use impactlaw::dem::bodies::machine::Machine;
+use impactlaw::dem::dynamics::{Bed, Normals, Parts};
+use impactlaw::dem::force::damping::Viscous;
+use impactlaw::dem::force::effects::Law;
+use impactlaw::dem::force::friction::Mindlin;
+use impactlaw::dem::force::normal::Model;
+use impactlaw::dem::force::rolling::RollingSpring;
+use impactlaw::dem::force::slider::Slider;
 use impactlaw::material::{Material, YIELD_PRESSURE_RATIO};
 use impactlaw::theory::thornton::Thornton;
 use parry3d::math::Vector;

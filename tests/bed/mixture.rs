@@ -1,17 +1,17 @@
 //! Mixtures: contacts of two materials against Hertz, their limits, and beds of several materials.
 
-use impactlaw::bed::bodies::{Body, Mobility, Solid};
-use impactlaw::bed::by_material::{Table, mixed};
-use impactlaw::bed::compose::Effects;
-use impactlaw::bed::damping::Viscous;
-use impactlaw::bed::friction::Mindlin;
-use impactlaw::bed::grains::Grains;
-use impactlaw::bed::law::{ContactLaw, Law};
-use impactlaw::bed::machine::Machine;
-use impactlaw::bed::mixture::{Mixture, RIGID};
-use impactlaw::bed::normals::{Histories, Model, NormalModel, Squeeze};
-use impactlaw::bed::step::{Bed, Normals, Parts};
 use impactlaw::contact::pair::{Alike, Flat, Pressed};
+use impactlaw::dem::bodies::machine::Machine;
+use impactlaw::dem::bodies::{Body, Mobility, Solid};
+use impactlaw::dem::dynamics::{Bed, Normals, Parts};
+use impactlaw::dem::force::by_material::{Table, mixed};
+use impactlaw::dem::force::damping::Viscous;
+use impactlaw::dem::force::effects::{ContactLaw, Law};
+use impactlaw::dem::force::friction::Mindlin;
+use impactlaw::dem::force::mixture::{Mixture, RIGID};
+use impactlaw::dem::force::named::Effects;
+use impactlaw::dem::force::normal::{Histories, Model, NormalModel, Squeeze};
+use impactlaw::dem::grains::Grains;
 use impactlaw::law::AnyLaw;
 use impactlaw::material::{Flow, Material, YIELD_PRESSURE_RATIO};
 use impactlaw::theory::Theory;
@@ -164,6 +164,7 @@ fn bed<C: ContactLaw>(effects: C, normals: Normals, kinds: [u8; 2], steps: usize
         centre: Vector::new(0.0, 0.0, -edge),
         rotation: Rotation::IDENTITY,
         mobility: Mobility::Fixed,
+        material: None,
     };
     let gravity = Vector::new(0.0, 0.0, -9.81);
     let parts = Parts {

@@ -2,9 +2,9 @@
 //! equations of motion of its own.
 
 use crate::collisions::{Bare, MATERIAL, RADIUS, Straight, thrown};
-use impactlaw::bed::friction::Mindlin;
-use impactlaw::bed::law::Law;
 use impactlaw::contact::rebound::rebound;
+use impactlaw::dem::force::effects::Law;
+use impactlaw::dem::force::friction::Mindlin;
 use impactlaw::material::Material;
 use impactlaw::theory::hertz::Hertz;
 use parry3d::math::Vector;

@@ -3,8 +3,8 @@
 
 use crate::collisions::{RADIUS, thrown};
 use crate::maw_barber_fawcett::tangential_restitution;
-use impactlaw::bed::friction::Mindlin;
-use impactlaw::bed::law::Law;
+use impactlaw::dem::force::effects::Law;
+use impactlaw::dem::force::friction::Mindlin;
 use impactlaw::material::Material;
 use impactlaw::theory::hertz::Hertz;
 use parry3d::math::Vector;

@@ -6,9 +6,9 @@
 //! not at hand.
 
 use crate::collisions::{RADIUS, thrown};
-use impactlaw::bed::damping::Viscous;
-use impactlaw::bed::friction::Mindlin;
-use impactlaw::bed::law::Law;
+use impactlaw::dem::force::damping::Viscous;
+use impactlaw::dem::force::effects::Law;
+use impactlaw::dem::force::friction::Mindlin;
 use impactlaw::material::Material;
 use impactlaw::theory::hertz::Hertz;
 use parry3d::math::Vector;

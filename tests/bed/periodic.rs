@@ -1,15 +1,15 @@
 //! Periodic sides: a contact across a side is one inside, momentum stays, and nothing depends on where the sides are.
 
-use impactlaw::bed::damping::Viscous;
-use impactlaw::bed::friction::Mindlin;
-use impactlaw::bed::grains::Grains;
-use impactlaw::bed::law::Law;
-use impactlaw::bed::machine::Machine;
-use impactlaw::bed::neighbours::HalfList;
-use impactlaw::bed::normals::Model;
-use impactlaw::bed::periodic::Periodic;
-use impactlaw::bed::step::{Bed, Normals, Parts};
 use impactlaw::contact::pair::{Flat, Twins};
+use impactlaw::dem::bodies::machine::Machine;
+use impactlaw::dem::dynamics::{Bed, Normals, Parts};
+use impactlaw::dem::force::damping::Viscous;
+use impactlaw::dem::force::effects::Law;
+use impactlaw::dem::force::friction::Mindlin;
+use impactlaw::dem::force::normal::Model;
+use impactlaw::dem::grains::Grains;
+use impactlaw::dem::grains::neighbours::HalfList;
+use impactlaw::dem::grains::periodic::Periodic;
 use impactlaw::material::{Flow, Material, YIELD_PRESSURE_RATIO};
 use impactlaw::theory::thornton::Thornton;
 use parry3d::math::Vector;

@@ -1,13 +1,13 @@
 //! Removal of a touched body: what its contacts hold leaves the account, what they have dissipated stays.
 
 use crate::collisions::{MATERIAL, RADIUS, Straight, bed, floor};
-use impactlaw::bed::bodies::Mobility;
-use impactlaw::bed::friction::Mindlin;
-use impactlaw::bed::grains::Grains;
-use impactlaw::bed::law::Law;
 use impactlaw::contact::NormalLaw;
 use impactlaw::contact::pair::{Flat, Twins};
 use impactlaw::contact::rebound::rebound;
+use impactlaw::dem::bodies::Mobility;
+use impactlaw::dem::force::effects::Law;
+use impactlaw::dem::force::friction::Mindlin;
+use impactlaw::dem::grains::Grains;
 use impactlaw::theory::hertz::Hertz;
 use parry3d::math::Vector;
 

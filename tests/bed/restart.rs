@@ -1,16 +1,17 @@
 //! Restart: a bed resumed from a tape goes on with the same bits as one that was never stopped.
 
-use impactlaw::bed::bodies::{Body, Freedom, Mobility, Solid};
-use impactlaw::bed::damping::Viscous;
-use impactlaw::bed::fabric::Fabric;
-use impactlaw::bed::friction::{Mindlin, RollingSpring};
-use impactlaw::bed::grains::Grains;
-use impactlaw::bed::law::Law;
-use impactlaw::bed::machine::Machine;
-use impactlaw::bed::motion::Motion;
-use impactlaw::bed::normals::Model;
-use impactlaw::bed::step::{Bed, Normals, Parts};
+use impactlaw::bed::measures::fabric::Fabric;
 use impactlaw::contact::pair::{Alike, Flat};
+use impactlaw::dem::bodies::machine::Machine;
+use impactlaw::dem::bodies::motion::Motion;
+use impactlaw::dem::bodies::{Body, Freedom, Mobility, Solid};
+use impactlaw::dem::dynamics::{Bed, Normals, Parts};
+use impactlaw::dem::force::damping::Viscous;
+use impactlaw::dem::force::effects::Law;
+use impactlaw::dem::force::friction::Mindlin;
+use impactlaw::dem::force::normal::Model;
+use impactlaw::dem::force::rolling::RollingSpring;
+use impactlaw::dem::grains::Grains;
 use impactlaw::material::{Flow, Material, YIELD_PRESSURE_RATIO};
 use impactlaw::tape::{Keep, Tape};
 use impactlaw::theory::thornton::Thornton;
@@ -52,6 +53,7 @@ fn mesh_floor() -> Body {
         centre: Vector::ZERO,
         rotation: Rotation::IDENTITY,
         mobility: Mobility::Fixed,
+        material: None,
     }
 }
 
@@ -76,6 +78,7 @@ fn bodies() -> Vec<Body> {
         centre: Vector::new(0.5, 0.4, 1.0) * e,
         rotation: Rotation::IDENTITY,
         mobility: Mobility::Free(Freedom::of_mass(2e-4)),
+        material: None,
     };
     vec![
         mesh_floor(),

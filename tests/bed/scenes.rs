@@ -1,12 +1,12 @@
 //! Scenes: the shipped ones are sound, stages and bodies do what they say, and the order of tables does not matter.
 
 use crate::scene_run::quiet;
-use impactlaw::bed::bodies::Solid;
-use impactlaw::bed::insertion::{check_bodies, insert};
-use impactlaw::bed::machine::Machine;
-use impactlaw::bed::mesh::read_stl;
+use impactlaw::bed::filling::{check_bodies, insert};
 use impactlaw::bed::run::{BedReport, LawRun, run_scene};
 use impactlaw::bed::scene::Scene;
+use impactlaw::dem::bodies::Solid;
+use impactlaw::dem::bodies::machine::Machine;
+use impactlaw::dem::bodies::mesh::read_stl;
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 

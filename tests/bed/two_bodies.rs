@@ -1,14 +1,15 @@
 //! Two bodies in the bed against closed forms and against the 1-D rebound of the same law.
 
 use crate::collisions::{Bare, MATERIAL, RADIUS, Straight, bed, collide, empty, floor, smooth};
-use impactlaw::bed::bodies::{Freedom, Mobility};
-use impactlaw::bed::damping::Viscous;
-use impactlaw::bed::friction::{Mindlin, RollingSpring};
-use impactlaw::bed::grains::Grains;
-use impactlaw::bed::law::{ContactLaw, Law};
 use impactlaw::contact::pair::{Alike, Flat, Press, Twins};
 use impactlaw::contact::rebound::rebound;
 use impactlaw::contact::{LawVisitor, NormalLaw};
+use impactlaw::dem::bodies::{Freedom, Mobility};
+use impactlaw::dem::force::damping::Viscous;
+use impactlaw::dem::force::effects::{ContactLaw, Law};
+use impactlaw::dem::force::friction::Mindlin;
+use impactlaw::dem::force::rolling::RollingSpring;
+use impactlaw::dem::grains::Grains;
 use impactlaw::law::LawFile;
 use impactlaw::law::file::Form;
 use impactlaw::material::Material;

@@ -7,7 +7,7 @@ use impactlaw::contact::{LawVisitor, NormalLaw};
 use impactlaw::export::c;
 use impactlaw::export::check::driver::{FLAGS, compiler};
 use impactlaw::export::check::{Check, CompilerCheck, Finding, series};
-use impactlaw::export::portable::Portable;
+use impactlaw::export::source::portable::Portable;
 use impactlaw::law::{Form, LawFile};
 use std::process::Command;
 

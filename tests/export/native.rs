@@ -9,7 +9,7 @@ use impactlaw::export::native::eepa::Eepa;
 use impactlaw::export::native::mdr::Mdr;
 use impactlaw::export::native::thornton_ning::ThorntonNing;
 use impactlaw::export::native::{self, Code, Model};
-use impactlaw::export::portable::Portable;
+use impactlaw::export::source::portable::Portable;
 use impactlaw::law::file::HertzTable;
 use impactlaw::law::{Form, LawFile};
 use impactlaw::theory::hertz::Hertz;

@@ -1,7 +1,7 @@
 //! Dialects whose code cannot run here: compiled and run in a stand-in for the interface the code documents.
 
 use impactlaw::export::check::{Check, Finding, ShimCheck};
-use impactlaw::export::portable::Portable;
+use impactlaw::export::source::portable::Portable;
 use impactlaw::export::{Target, deme};
 use impactlaw::law::Form;
 use std::path::Path;

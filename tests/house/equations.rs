@@ -85,7 +85,7 @@ fn fault(equation: &str, known: &BTreeSet<String>) -> Option<String> {
 /// Every equation of the sources with the path of its file.
 fn all() -> Vec<(PathBuf, String)> {
     let mut all = Vec::new();
-    for (path, _, text) in sources() {
+    for (path, text) in sources() {
         for comment in comments(&text) {
             let found = equations(&comment);
             let found =

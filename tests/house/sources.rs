@@ -1,4 +1,4 @@
-//! Rust sources of the program, with the room each belongs to.
+//! Rust sources of the library.
 
 use std::path::{Path, PathBuf};
 
@@ -13,21 +13,20 @@ fn rust_files(folder: &Path, files: &mut Vec<PathBuf>) {
     }
 }
 
-/// Every source file with its room (first part of its path) and its text.
-pub fn sources() -> Vec<(PathBuf, String, String)> {
+/// Every source file of the library, by its place in `src`, with its text.
+///
+/// The C interface is a package of its own; the program and the list of rooms stand above all rooms.
+pub fn sources() -> Vec<(PathBuf, String)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let mut files = Vec::new();
     rust_files(&root, &mut files);
     files.sort();
-    files
-        .into_iter()
-        .map(|path| {
-            let inside = path.strip_prefix(&root).unwrap();
-            let first = inside.components().next().unwrap().as_os_str();
-            let room = first.to_string_lossy().trim_end_matches(".rs").to_owned();
-            let text = std::fs::read_to_string(&path).unwrap();
-            (inside.to_owned(), room, text)
-        })
-        .filter(|(_, room, _)| room != "lib" && room != "main")
+    let inside = files.into_iter().map(|path| {
+        let text = std::fs::read_to_string(&path).unwrap();
+        (path.strip_prefix(&root).unwrap().to_owned(), text)
+    });
+    let apart = ["capi", "lib.rs", "main.rs"];
+    inside
+        .filter(|(file, _)| !apart.iter().any(|name| file.starts_with(name)))
         .collect()
 }

@@ -1,11 +1,12 @@
 //! Bodies of a scene as they are written: one shape, one place, one way to move.
 
+use super::at::At;
 use super::drive::{DrivenTable, FreeTable};
-use super::group::vector;
 use super::material::GrainMaterial;
+use super::written::vector;
 use crate::Result;
-use crate::bed::bodies::{Body, Mobility, Solid};
-use crate::bed::mesh;
+use crate::dem::bodies::mesh;
+use crate::dem::bodies::{Body, Mobility, Solid};
 use crate::document::Document;
 use crate::error::must_be_one_of;
 use crate::unit::{Angle, Length, Quantity};
@@ -83,21 +84,14 @@ struct TurnTable {
 /// Files a scene names, by name, with their bytes: what its hash covers beside its own text.
 pub(super) type Files = BTreeMap<String, Vec<u8>>;
 
-/// What a table is checked against: the document, and the dotted key of the table.
-pub(super) struct At<'a> {
-    pub(super) document: &'a Document,
-    pub(super) key: &'a str,
-}
-
 pub(super) fn check_bodies(
     document: &Document,
     tables: Vec<BodyTable>,
     reserved: &[&str],
     materials: &[GrainMaterial],
     files: &mut Files,
-) -> Result<(Vec<Body>, Vec<Option<usize>>)> {
+) -> Result<Vec<Body>> {
     let mut bodies: Vec<Body> = Vec::new();
-    let mut own = Vec::new();
     for (index, table) in tables.into_iter().enumerate() {
         let key = format!("body[{index}]");
         let taken = bodies.iter().any(|body| body.name == table.name);
@@ -109,34 +103,13 @@ pub(super) fn check_bodies(
             document,
             key: &key,
         };
-        own.push(table.material(&at, materials)?);
-        bodies.push(table.check(&at, files)?);
+        let material = table.material(&at, materials)?;
+        bodies.push(Body {
+            material: material.map(|index| index as u8),
+            ..table.check(&at, files)?
+        });
     }
-    Ok((bodies, own))
-}
-
-impl At<'_> {
-    pub(super) fn name(&self, name: &str) -> String {
-        format!("{}.{name}", self.key)
-    }
-
-    pub(super) fn positive<D>(&self, name: &str, quantity: Quantity<D>) -> Result<f64> {
-        self.document.positive(&self.name(name), quantity)
-    }
-
-    pub(super) fn reject(&self, name: &str, allowed: &str) -> crate::Error {
-        self.document.reject(&self.name(name), allowed)
-    }
-
-    /// Unit vector.
-    pub(super) fn direction(&self, name: &str, direction: [f64; 3]) -> Result<Vector> {
-        Vector::from(direction).try_normalize().ok_or_else(|| {
-            self.reject(
-                name,
-                "must be a direction other than zero, e.g. [0.0, 0.0, 1.0]",
-            )
-        })
-    }
+    Ok(bodies)
 }
 
 impl BodyTable {
@@ -179,6 +152,7 @@ impl BodyTable {
             centre: self.at.map_or(Vector::ZERO, vector),
             rotation: turn * own_turn,
             mobility,
+            material: None,
         })
     }
 

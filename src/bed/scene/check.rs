@@ -1,9 +1,9 @@
 //! Checks of a scene as a whole: its room, its meshes, and what its stages tell bodies to do.
 
-use super::{Change, Scene, Stage};
 use crate::Result;
-use crate::bed::bodies::{Mobility, Solid};
-use crate::bed::mesh::shortest_edge;
+use crate::bed::scene::{Change, Scene, Stage};
+use crate::dem::bodies::mesh::shortest_edge;
+use crate::dem::bodies::{Mobility, Solid};
 use crate::unit::engineering;
 
 /// Shortest edge of a mesh over the smallest radius.

@@ -2,7 +2,7 @@
 
 use super::stage::Stage;
 use crate::Result;
-use crate::bed::room::PISTON;
+use crate::dem::bodies::enclosure::PISTON;
 use crate::document::Document;
 use crate::unit::{Length, Quantity};
 use serde::Deserialize;

@@ -1,11 +1,11 @@
 //! Ways a body may move, as they are written: driven, or free with joint and motor.
 
-use super::body::At;
-use super::group::vector;
+use super::at::At;
+use super::written::vector;
 use crate::Result;
-use crate::bed::bodies::{Freedom, Joint, JointKind, Motor, Solid};
-use crate::bed::mesh;
-use crate::bed::motion::{Motion, Oscillation, Servo};
+use crate::dem::bodies::mesh;
+use crate::dem::bodies::motion::{Motion, Oscillation, Servo};
+use crate::dem::bodies::{Freedom, Joint, JointKind, Motor, Solid};
 use crate::document::Document;
 use crate::unit::{
     AngularVelocity, Density, Force, Frequency, Length, Mass, Quantity, Torque, Velocity,

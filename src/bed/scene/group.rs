@@ -1,10 +1,12 @@
 //! Groups of grains: how many, how large, of what, and how they come into the bed.
 
 use super::material::GrainMaterial;
+use super::region::Region;
+use super::region::RegionTable;
+use super::sizes::Sizes;
 use super::written::OneOrMany;
+use super::written::vector;
 use crate::Result;
-use crate::bed::region::Region;
-use crate::bed::sizes::Sizes;
 use crate::document::Document;
 use crate::error::must_be_one_of;
 use crate::unit::{Length, Mass, MassRate, Quantity, Velocity};
@@ -95,22 +97,6 @@ struct LogNormalTable {
     deviation: f64,
     smallest: Quantity<Length>,
     largest: Quantity<Length>,
-}
-
-/// A block (`low`, `high`) or an upright cylinder (`base`, `radius`, `height`).
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct RegionTable {
-    low: Option<[Quantity<Length>; 3]>,
-    high: Option<[Quantity<Length>; 3]>,
-    base: Option<[Quantity<Length>; 3]>,
-    radius: Option<Quantity<Length>>,
-    height: Option<Quantity<Length>>,
-}
-
-/// Vector of an array of quantities, SI.
-pub(super) fn vector<D>(components: [Quantity<D>; 3]) -> Vector {
-    Vector::from(components.map(Quantity::si))
 }
 
 pub(super) fn check_groups(
@@ -275,29 +261,5 @@ impl LogNormalTable {
             deviation,
             limits: [smallest, largest],
         })
-    }
-}
-
-impl RegionTable {
-    pub(super) fn check(&self, document: &Document, key: &str) -> Result<Region> {
-        match (self.low, self.high, self.base, self.radius, self.height) {
-            (Some(low), Some(high), None, None, None) => {
-                let (low, high) = (vector(low), vector(high));
-                if !(high - low).cmpgt(Vector::ZERO).all() {
-                    let allowed = "must lie above `low` along every axis";
-                    return Err(document.reject(&format!("{key}.high"), allowed));
-                }
-                Ok(Region::Block { low, high })
-            }
-            (None, None, Some(base), Some(radius), Some(height)) => Ok(Region::Cylinder {
-                base: vector(base),
-                radius: document.positive(&format!("{key}.radius"), radius)?,
-                height: document.positive(&format!("{key}.height"), height)?,
-            }),
-            _ => Err(document.reject(
-                key,
-                "must hold `low` and `high` (a block), or `base`, `radius` and `height` (an upright cylinder)",
-            )),
-        }
     }
 }

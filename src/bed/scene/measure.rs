@@ -1,8 +1,9 @@
 //! Measures of a scene: what to find out beside the usual series.
 
-use super::group::{RegionTable, vector};
+use super::region::Region;
+use super::region::RegionTable;
+use super::written::vector;
 use crate::Result;
-use crate::bed::region::Region;
 use crate::document::Document;
 use crate::error::must_be_one_of;
 use crate::unit::{Length, Quantity};

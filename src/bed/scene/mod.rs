@@ -1,5 +1,10 @@
 //! Scene: what a bed file says, checked and in SI units.
 
+pub mod region;
+pub mod sizes;
+pub mod stage_tables;
+
+mod at;
 mod body;
 mod check;
 mod container;
@@ -10,33 +15,34 @@ mod measure;
 mod pair;
 mod settings;
 mod stage;
-mod stages;
 mod written;
 
+use crate::dem::force::named::Constants;
 pub use container::Container;
 pub use group::{Amount, Group, Insertion};
 pub use material::{GrainMaterial, LawChoice, OWN};
 pub use measure::{Measure, Orifice, Plane};
 pub use pair::PairContact;
-pub use settings::{ContactTable, OutputTable, TimeStep};
+pub use settings::{OutputTable, TimeStep};
 pub use stage::{Change, Duration, Move, RunStage, Stage, Until};
 
-use super::bodies::Body;
-use super::periodic::Periodic;
-use super::room::{PISTON, Room, WALLS};
 use crate::Result;
+use crate::bed::scene::region::RegionTable;
+use crate::dem::bodies::Body;
+use crate::dem::bodies::enclosure::{PISTON, Room, WALLS};
+use crate::dem::grains::periodic::Periodic;
 use crate::document::Document;
 use body::{BodyTable, Files, check_bodies};
 use container::BoxTable;
-use group::{GroupTable, RegionTable, check_groups};
+use group::{GroupTable, check_groups};
 use material::{SceneMaterialTable, check_laws, check_materials};
 use measure::{MeasureTable, check_measures};
 use pair::{PairTable, check_pairs};
 use parry3d::math::Vector;
 use serde::Deserialize;
-use settings::TimeTable;
+use settings::{ContactTable, TimeTable};
 use sha2::{Digest, Sha256};
-use stages::{Cast, StageTable, check_stages};
+use stage_tables::{Cast, StageTable, check_stages};
 use std::collections::BTreeMap;
 use std::path::Path;
 use written::{Gravity, OneOrMany};
@@ -64,7 +70,7 @@ pub struct Scene {
     /// Groups of grains.
     pub groups: Vec<Group>,
     /// Effects beside the normal law.
-    pub contact: ContactTable,
+    pub contact: Constants,
     /// Effects of pairs of materials.
     pub pairs: Vec<PairContact>,
     /// The box, if there is one.
@@ -73,8 +79,6 @@ pub struct Scene {
     pub domain: Option<[Vector; 2]>,
     /// Bodies beside the box.
     pub bodies: Vec<Body>,
-    /// Material of each of them; rigid if none.
-    pub body_materials: Vec<Option<usize>>,
     /// Time step.
     pub time: TimeStep,
     /// Stages, in order.
@@ -140,8 +144,7 @@ impl Scene {
         let groups = check_groups(document, file.grains, &materials)?;
         let contact = file.contact.check(document)?;
         let reserved: Vec<&str> = WALLS.iter().copied().chain([PISTON]).collect();
-        let (bodies, body_materials) =
-            check_bodies(document, file.body, &reserved, &materials, &mut files)?;
+        let bodies = check_bodies(document, file.body, &reserved, &materials, &mut files)?;
         let mut cast = Cast {
             contact: &contact,
             bodies: bodies.iter().map(|body| body.name.clone()).collect(),
@@ -183,7 +186,6 @@ impl Scene {
                 None => None,
             },
             bodies,
-            body_materials,
             time: file.time.check(document)?,
             stages,
             measures: check_measures(document, file.measure, &cast.bodies)?,
@@ -233,21 +235,24 @@ impl Scene {
     pub fn uses(&self, material: usize) -> bool {
         let groups = self.groups.iter().map(|group| group.material);
         groups
-            .chain(self.body_materials.iter().flatten().copied())
+            .chain(self.bodies.iter().filter_map(Body::flattening_material))
             .any(|used| used == material)
     }
 
-    /// Whether contacts of more than one kind of body can occur: several materials, or bodies that flatten too.
+    /// Whether contacts of more than one kind can occur: several materials, bodies that flatten too, or pairs with effects
+    /// of their own.
     #[must_use]
     pub fn is_mixture(&self) -> bool {
         let first = self.groups[0].material;
         let several = self.groups.iter().any(|group| group.material != first);
-        several || self.body_materials.iter().any(Option::is_some)
+        let flattening = self.bodies.iter().any(|body| body.material.is_some());
+        // effects of a pair hold between grains, not on rigid bodies: two tables even for one material
+        several || flattening || !self.pairs.is_empty()
     }
 
     /// Effects of the contacts of two materials.
     #[must_use]
-    pub fn contact_of(&self, a: usize, b: usize) -> ContactTable {
+    pub fn contact_of(&self, a: usize, b: usize) -> Constants {
         let own = self
             .pairs
             .iter()

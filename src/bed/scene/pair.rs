@@ -1,8 +1,8 @@
 //! Pairs of materials whose contacts have effects of their own.
 
 use super::material::GrainMaterial;
-use super::settings::ContactTable;
 use crate::Result;
+use crate::dem::force::named::Constants;
 use crate::document::Document;
 use serde::Deserialize;
 
@@ -12,7 +12,7 @@ pub struct PairContact {
     /// Indices into the scene's materials.
     pub between: [usize; 2],
     /// Friction, rolling friction and restitution.
-    pub contact: ContactTable,
+    pub contact: Constants,
 }
 
 /// Table `[[pair]]`.
@@ -29,7 +29,7 @@ pub(super) fn check_pairs(
     document: &Document,
     tables: Vec<PairTable>,
     materials: &[GrainMaterial],
-    general: &ContactTable,
+    general: &Constants,
 ) -> Result<Vec<PairContact>> {
     let tables = tables.into_iter().enumerate();
     tables
@@ -43,7 +43,7 @@ impl PairTable {
         document: &Document,
         key: &str,
         materials: &[GrainMaterial],
-        general: &ContactTable,
+        general: &Constants,
     ) -> Result<PairContact> {
         let mut between = [0; 2];
         for (place, name) in between.iter_mut().zip(&self.between) {
@@ -61,7 +61,7 @@ impl PairTable {
                 .map(|value| document.check(&format!("{key}.{name}"), value, holds, must))
                 .transpose()
         };
-        let contact = ContactTable {
+        let contact = Constants {
             friction: check("friction", self.friction, f64::MAX)?.or(general.friction),
             rolling: check("rolling", self.rolling, f64::MAX)?.or(general.rolling),
             restitution: check("restitution", self.restitution, 1.0)?.or(general.restitution),

@@ -1,32 +1,23 @@
 //! Settings of a scene that are plain numbers: contact effects, time step, files.
 
 use crate::Result;
+use crate::dem::force::named::Constants;
 use crate::document::Document;
 use crate::unit::{Quantity, Time};
 use serde::Deserialize;
 
-/// Table `[contact]`: an effect that is not named does not exist.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize)]
+/// Table `[contact]` as it is written: an effect that is not named does not act.
+#[derive(Debug, Clone, Copy, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct ContactTable {
-    /// Coulomb friction coefficient.
-    pub friction: Option<f64>,
-    /// Rolling friction coefficient.
-    pub rolling: Option<f64>,
-    /// Restitution of the elastic contact, by viscous damping.
-    pub restitution: Option<f64>,
-    /// Contact stiffness over that of the material, in (0, 1]: softer contacts allow longer time steps.
-    pub stiffness: Option<f64>,
+pub(super) struct ContactTable {
+    friction: Option<f64>,
+    rolling: Option<f64>,
+    restitution: Option<f64>,
+    stiffness: Option<f64>,
 }
 
 impl ContactTable {
-    /// Contact stiffness over that of the material.
-    #[must_use]
-    pub fn softening(&self) -> f64 {
-        self.stiffness.unwrap_or(1.0)
-    }
-
-    pub(super) fn check(self, document: &Document) -> Result<Self> {
+    pub(super) fn check(self, document: &Document) -> Result<Constants> {
         if let Some(friction) = self.friction {
             document.check(
                 "contact.friction",
@@ -67,7 +58,18 @@ impl ContactTable {
                 must,
             )?;
         }
-        Ok(self)
+        let Self {
+            friction,
+            rolling,
+            restitution,
+            stiffness,
+        } = self;
+        Ok(Constants {
+            friction,
+            rolling,
+            restitution,
+            stiffness,
+        })
     }
 }
 

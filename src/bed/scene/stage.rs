@@ -1,7 +1,7 @@
 //! Stages of a scene: what a bed goes through, one after the other.
 
-use super::settings::ContactTable;
-use crate::bed::motion::Motion;
+use crate::dem::bodies::motion::Motion;
+use crate::dem::force::named::Constants;
 
 /// A stage of the run.
 #[derive(Debug, Clone, PartialEq)]
@@ -11,7 +11,7 @@ pub enum Stage {
         /// Share of the material's stiffness, in (0, 1].
         stiffness: f64,
         /// Effects while the packing is made: little friction packs densely, much damping quickly.
-        contact: ContactTable,
+        contact: Constants,
         /// Time after which settling ends in any case, s.
         longest: f64,
         /// Root mean square speed of the grains below which the bed is at rest, m/s.

@@ -102,7 +102,12 @@ impl Gravity {
                 let magnitude = document.non_negative("gravity", *magnitude)?;
                 Ok(Vector::new(0.0, 0.0, -magnitude))
             }
-            Gravity::Vector(components) => Ok(super::group::vector(*components)),
+            Gravity::Vector(components) => Ok(vector(*components)),
         }
     }
+}
+
+/// Vector of an array of quantities, SI.
+pub(super) fn vector<D>(components: [Quantity<D>; 3]) -> Vector {
+    Vector::from(components.map(Quantity::si))
 }

@@ -1,7 +1,7 @@
 //! Bed shown: facts of the scene, figures of each law, curves, picture.
 
 use crate::Result;
-use crate::bed::row::Row;
+use crate::bed::measures::series::Row;
 use crate::bed::run::{BedReport, LawRun};
 use crate::bed::scene::{FITTED, Scene};
 use crate::report::chart::{Mark, Series};

@@ -7,9 +7,10 @@ use crate::curve::{Impact, MapPoint, Part, ParticleMap};
 use crate::impact::Simulated;
 use crate::plan::Plan;
 use crate::report::chart::{Mark, Series};
-use crate::report::field_map::{FieldMap, FieldPoint};
+use crate::report::field_map::FieldMap;
 use crate::report::figure::Figure;
 use crate::report::palette::Role;
+use crate::report::raster::FieldPoint;
 use crate::report::run_page::Choice;
 use crate::unit::{engineering, significant};
 

@@ -3,10 +3,10 @@
 use super::driver::{Driver, FLAGS, Row, compiler, row, version};
 use super::paths::{self, Bodies};
 use super::process::run;
-use super::{Agreement, Check, Finding};
 use crate::Result;
-use crate::export::kernel;
-use crate::export::portable::Portable;
+use crate::export::c::kernel;
+use crate::export::check::{Agreement, Check, Finding};
+use crate::export::source::portable::Portable;
 use std::hint::black_box;
 use std::path::Path;
 use std::process::Command;

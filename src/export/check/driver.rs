@@ -1,11 +1,12 @@
 //! Driver: a C program around an exported header that presses a contact along overlaps it reads.
 
-use super::largest;
 use super::process::{Ran, find_program, run};
 use crate::contact::pair::Pressed;
-use crate::export::Artifact;
-use crate::export::portable::Portable;
-use crate::export::{c, kernel};
+use crate::export::c;
+use crate::export::c::kernel;
+use crate::export::check::largest;
+use crate::export::source::artifact::Artifact;
+use crate::export::source::portable::Portable;
 use crate::files::write_atomic;
 use crate::{Error, Result};
 use std::path::{Path, PathBuf};

@@ -1,11 +1,12 @@
 //! Impacts of the reference run in another code by its example input, and compared with the law's own figures.
 
 use super::process::{Ran, run};
-use super::{Agreement, largest};
 use crate::contact::rebound::Rebound;
-use crate::export::portable::Portable;
-use crate::export::reference::Impact;
-use crate::export::{Artifact, describe};
+use crate::export::check::{Agreement, largest};
+use crate::export::source::artifact::Artifact;
+use crate::export::source::describe;
+use crate::export::source::portable::Portable;
+use crate::export::source::reference::Impact;
 use crate::files::write_atomic;
 use crate::{Error, Result};
 use std::path::{Path, PathBuf};

@@ -1,10 +1,11 @@
 //! Check of the LAMMPS export: the plugin loaded into the installed program, impacts compared with the law.
 
+use super::impacts;
 use super::process::find_program;
-use super::{Check, Finding, impacts};
 use crate::Result;
+use crate::export::check::{Check, Finding};
 use crate::export::lammps;
-use crate::export::portable::Portable;
+use crate::export::source::portable::Portable;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 

@@ -16,9 +16,9 @@ pub use native::NativeCheck;
 pub use process::{Ran, find_program, run};
 pub use shim::ShimCheck;
 
-use super::native::Code;
-use super::portable::Portable;
 use crate::Result;
+use crate::export::native::Code;
+use crate::export::source::portable::Portable;
 use std::fmt::Write;
 use std::path::Path;
 

@@ -2,10 +2,10 @@
 
 use super::impacts::Found;
 use super::process::{find_program, run};
-use super::{Agreement, Check, Finding, largest};
 use crate::Result;
+use crate::export::check::{Agreement, Check, Finding, largest};
 use crate::export::native::{self, Code, Lines, Model, Target};
-use crate::export::portable::Portable;
+use crate::export::source::portable::Portable;
 use crate::files::write_atomic;
 use crate::law::Form;
 use std::path::{Path, PathBuf};

@@ -2,13 +2,15 @@
 
 use super::c::{PATH_ALLOWED, STEPS};
 use super::driver::{Driver, Row, compiler, row, version};
-use super::{Agreement, Finding, paths};
+use super::paths;
 use crate::Result;
-use crate::bed::mixture::Mixture;
-use crate::bed::normals::{NormalModel, Squeeze};
 use crate::contact::pair::Pressed;
-use crate::export::portable::Portable;
-use crate::export::{c, series};
+use crate::dem::force::mixture::Mixture;
+use crate::dem::force::normal::{NormalModel, Squeeze};
+use crate::export::c;
+use crate::export::c::series;
+use crate::export::check::{Agreement, Finding};
+use crate::export::source::portable::Portable;
 use crate::law::AnyLaw;
 use std::path::Path;
 

@@ -2,11 +2,13 @@
 
 use super::impacts::Found;
 use super::process::{find_program, run};
-use super::{Agreement, Check, Finding, largest};
 use crate::Result;
-use crate::export::portable::Portable;
-use crate::export::reference::Impact;
-use crate::export::{Artifact, deme, describe, mercurydpm};
+use crate::export::check::{Agreement, Check, Finding, largest};
+use crate::export::source::artifact::Artifact;
+use crate::export::source::describe;
+use crate::export::source::portable::Portable;
+use crate::export::source::reference::Impact;
+use crate::export::{deme, mercurydpm};
 use crate::files::write_atomic;
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -2,7 +2,7 @@
 
 use crate::contact::rebound::{Rebound, rebound};
 use crate::contact::{LawVisitor, NormalLaw};
-use crate::export::portable::Portable;
+use crate::export::source::portable::Portable;
 use crate::{Error, Result};
 use argmin::core::{CostFunction, Executor, State};
 use argmin::solver::neldermead::NelderMead;

@@ -1,9 +1,9 @@
 //! Input lines: fitted models in the words of each code, and which of them are proved by running them.
 
-use super::Model;
 use super::fit::Target;
-use crate::export::Artifact;
-use crate::export::portable::Portable;
+use crate::export::native::Model;
+use crate::export::source::artifact::Artifact;
+use crate::export::source::portable::Portable;
 use crate::material::Material;
 
 /// Young's modulus of a wall over that of the grains where a code knows no rigid wall.

@@ -14,10 +14,10 @@ pub use fit::{Target, target};
 pub use lines::{Code, Lines, input, of as lines_of};
 pub use summary::files;
 
-use super::portable::Portable;
 use crate::contact::rebound::{Rebound, rebound};
-use crate::export::Artifact;
-use crate::export::dialect::{Dialect, PairExport};
+use crate::export::source::artifact::Artifact;
+use crate::export::source::dialect::{Dialect, PairExport};
+use crate::export::source::portable::Portable;
 use crate::law::Form;
 use crate::theory::luding::Luding;
 use crate::theory::walton_braun::WaltonBraun;

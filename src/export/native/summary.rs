@@ -1,10 +1,11 @@
 //! Summary of the projections: every fitted model with its errors and its lines, and the runnable inputs beside it.
 
 use super::lines::{input, of};
-use super::{Model, Projection, Target, project, target};
 use crate::Result;
-use crate::export::portable::Portable;
-use crate::export::{Artifact, describe};
+use crate::export::native::{Model, Projection, Target, project, target};
+use crate::export::source::artifact::Artifact;
+use crate::export::source::describe;
+use crate::export::source::portable::Portable;
 use std::fmt::Write;
 
 /// How near to its bound an exponent counts as held by it.

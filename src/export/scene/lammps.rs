@@ -1,7 +1,8 @@
 //! Scene for LAMMPS: data file and input script beside the plugin.
 
-use super::{Bed, Parts};
-use crate::export::{Artifact, lammps};
+use crate::export::lammps;
+use crate::export::scene::{Bed, Parts};
+use crate::export::source::artifact::Artifact;
 use std::fmt::Write;
 
 const BEGIN: &str = include_str!("lammps_begin.in");

@@ -1,7 +1,8 @@
 //! Scene for LIGGGHTS: data file, input script and the mesh of the piston beside the law's library.
 
-use super::{Bed, Parts};
-use crate::export::{Artifact, liggghts};
+use crate::export::liggghts;
+use crate::export::scene::{Bed, Parts};
+use crate::export::source::artifact::Artifact;
 use std::fmt::Write;
 
 const BEGIN: &str = include_str!("liggghts_begin.in");

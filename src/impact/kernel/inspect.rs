@@ -1,7 +1,7 @@
 //! What is done with points outside the hot loop: looked at, kept, swept cell by cell, weakened.
 
 use super::part::Level;
-use super::{Cell, Part, Point, Points, Purpose, Sweep};
+use crate::impact::kernel::{Cell, Part, Point, Points, Purpose, Sweep};
 use crate::lanes::{Lanes, WIDTH};
 use crate::material::stress::Constitutive;
 use crate::space::{Space, Symmetric};

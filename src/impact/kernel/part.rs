@@ -3,7 +3,7 @@
 //! Cells of level k take steps of $2^{-k}$ of the longest (`impact::local`). They lie level by level in memory, so that a
 //! sweep over a level is one over a range.
 
-use super::{Cell, Points, Purpose, Sweep, side};
+use crate::impact::kernel::{Cell, Points, Purpose, Sweep, side};
 use crate::lanes::Lanes;
 use crate::material::stress::Constitutive;
 use crate::space::{Space, Symmetric};
@@ -256,11 +256,12 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
 mod tests {
     use super::*;
     use crate::impact::kernel::passes::tests::{GRID, Metal, metal};
-    use crate::impact::setup::{self, AxisymmetricModel};
+    use crate::impact::model;
+    use crate::impact::model::AxisymmetricModel;
     use crate::scheme::Layout;
 
     fn model() -> AxisymmetricModel<Metal, 9> {
-        setup::build::<_, 2, 9>(&GRID, Layout::Fitted, metal(), 1e-9)
+        model::build::<_, 2, 9>(&GRID, Layout::Fitted, metal(), 1e-9)
     }
 
     /// The third cell goes two levels down, the twentieth one.

@@ -5,7 +5,7 @@
 //! The weights of the nodes are products of one factor a direction: what the nodes of a row have in common is multiplied
 //! once, and a fifth (three dimensions) to a half of the memory is read that the products would take.
 
-use super::{Cell, Points, Purpose, Sweep};
+use crate::impact::kernel::{Cell, Points, Purpose, Sweep};
 use crate::lanes::Lanes;
 use crate::material::stress::Constitutive;
 use crate::space::{Space, Symmetric};
@@ -210,10 +210,11 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
 
 #[cfg(test)]
 pub(super) mod tests {
-    use super::*;
     use crate::impact::kernel::Part;
-    use crate::impact::patch::Frictionless;
-    use crate::impact::{setup, solid};
+    use crate::impact::kernel::*;
+    use crate::impact::model;
+    use crate::impact::model::solid;
+    use crate::impact::wall::surface::Frictionless;
     use crate::material::flow::PerfectlyPlastic;
     use crate::material::stress::{J2, Moduli};
     use crate::plan::{Geometry, Grid, Remedies};
@@ -275,7 +276,7 @@ pub(super) mod tests {
         {
             return;
         }
-        let flat = || setup::build::<_, 2, 9>(&GRID, Layout::Fitted, metal(), 1e-9);
+        let flat = || model::build::<_, 2, 9>(&GRID, Layout::Fitted, metal(), 1e-9);
         let nodes = flat().mass.len();
         let plain = bits(flat().points, nodes, |p, u| {
             p.pass_any(0..p.cells.len(), Purpose::Audit, u)
@@ -304,7 +305,7 @@ pub(super) mod tests {
 
     #[test]
     fn cells_one_by_one_add_up_to_the_whole() {
-        let mut model = setup::build::<_, 2, 9>(&GRID, Layout::Fitted, metal(), 1e-9);
+        let mut model = model::build::<_, 2, 9>(&GRID, Layout::Fitted, metal(), 1e-9);
         let u: Vec<[f64; 2]> = (0..model.mass.len())
             .map(|n| [0.0, 1e-3 * (0.7 * n as f64).cos()])
             .collect();

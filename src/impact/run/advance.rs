@@ -1,10 +1,10 @@
 //! Advance: one step of a run, level by level of cells.
 
-use super::Run;
-use crate::impact::contact::{Touch, Wall};
+use super::transfer::{Remap, StepEnd};
 use crate::impact::kernel::{Part, Purpose, Sweep};
-use crate::impact::local::push;
-use crate::impact::remap::{Remap, StepEnd};
+use crate::impact::run::Run;
+use crate::impact::stepping::levels::push;
+use crate::impact::wall::meridian::{Touch, Wall};
 use crate::material::stress::Constitutive;
 use crate::space::Space;
 

@@ -1,8 +1,8 @@
 //! Runs with levels of steps resume bit for bit.
 
-use super::Run;
-use crate::impact::contact::Contact;
-use crate::impact::setup;
+use crate::impact::model;
+use crate::impact::run::Run;
+use crate::impact::wall::meridian::Contact;
 use crate::material::flow::PerfectlyPlastic;
 use crate::material::stress::{J2, Moduli};
 use crate::plan::Plan;
@@ -28,7 +28,7 @@ fn run(plan: &Plan) -> Crushed<'_> {
     let flow = PerfectlyPlastic {
         strength: 1.0 / 320.0,
     };
-    let model = setup::build::<Metal, 2, 9>(&plan.grid, Layout::Fitted, J2 { moduli, flow }, 1e-9);
+    let model = model::build::<Metal, 2, 9>(&plan.grid, Layout::Fitted, J2 { moduli, flow }, 1e-9);
     Run::new(model, (), plan, 0.0559)
 }
 

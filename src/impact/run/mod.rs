@@ -1,19 +1,22 @@
 //! Run: one impact in progress, step by step.
 
+pub mod record;
+pub mod transfer;
+
 mod advance;
 #[cfg(test)]
 mod kept;
 mod observe;
 
+use self::record::{Frame, Record, Snapshot};
+use self::transfer::Remap;
 use crate::curve::Status;
-use crate::impact::contact::Wall;
-use crate::impact::erosion::Erosion;
 use crate::impact::kernel::{Part, Purpose};
-use crate::impact::local::LocalStep;
-use crate::impact::record::{Frame, Record, Snapshot};
-use crate::impact::remap::Remap;
-use crate::impact::setup::Model;
-use crate::impact::timestep::StabilityLimit;
+use crate::impact::model::Model;
+use crate::impact::stepping::erosion::Erosion;
+use crate::impact::stepping::levels::LocalStep;
+use crate::impact::stepping::stability::StabilityLimit;
+use crate::impact::wall::meridian::Wall;
 use crate::material::stress::Constitutive;
 use crate::plan::{Plan, Remedies};
 use crate::scheme::{TimeStep, Transfer};
@@ -21,7 +24,7 @@ use crate::space::Space;
 use crate::tape::{Keeper, keep_fields};
 
 /// Outputs over the expected contact time.
-pub(super) const OUTPUTS: f64 = 400.0;
+pub(in crate::impact) const OUTPUTS: f64 = 400.0;
 /// Energy imbalance (of the incident kinetic energy) beyond which a run is stopped as unstable.
 const UNSTABLE: f64 = 0.05;
 /// Stable step, in times that a bar wave takes through the smallest cell, below which a run is stopped: a node has hardly any
@@ -58,7 +61,7 @@ keep_fields!(
 
 /// A run in progress.
 #[derive(Clone)]
-pub(super) struct Run<'a, S, M, W, T, const N: usize>
+pub(in crate::impact) struct Run<'a, S, M, W, T, const N: usize>
 where
     S: Space,
     M: Constitutive<S>,
@@ -107,7 +110,12 @@ where
     W: Wall<S>,
     T: Remap<S::Vector>,
 {
-    pub(super) fn new(model: Model<S, M, W, N>, transfer: T, plan: &'a Plan, speed: f64) -> Self {
+    pub(in crate::impact) fn new(
+        model: Model<S, M, W, N>,
+        transfer: T,
+        plan: &'a Plan,
+        speed: f64,
+    ) -> Self {
         let nodes = model.mass.len();
         let mass = model.mass.iter().sum::<f64>();
         let mut run = Run {
@@ -149,11 +157,11 @@ where
 
     /// Run the impacts of the plan one after the other; those after one that did not end well are left out. A single impact
     /// is kept by `keeper` while it is under way, and resumed where one was kept.
-    pub(super) fn finish(mut self, mut keeper: Option<Keeper>) -> Vec<Record> {
+    pub(in crate::impact) fn finish(mut self, mut keeper: Option<Keeper>) -> Vec<Record> {
         if let Some(keeper) = &mut keeper
             && keeper.take_up(&mut self)
         {
-            tracing::info!("resumed at step {}", self.step);
+            tracing::info!("taken up at step {}", self.step);
         }
         let mut records = Vec::with_capacity(self.plan.impacts);
         loop {
@@ -328,7 +336,7 @@ fn remedies(plan: &Plan) -> Remedies {
 }
 
 /// Velocity before an impact at `speed`.
-pub(super) fn incident<S: Space>(plan: &Plan, speed: f64) -> S::Vector {
+pub(in crate::impact) fn incident<S: Space>(plan: &Plan, speed: f64) -> S::Vector {
     let mut incident = S::Vector::default();
     incident.as_mut()[S::NORMAL] = -speed * plan.angle.cos();
     if let Some(axis) = S::SLIDING {

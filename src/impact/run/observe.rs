@@ -1,11 +1,11 @@
 //! Observation: what is kept of a run at its outputs, and what it leaves in the end.
 
-use super::{Run, UNSTABLE};
+use super::record::{Frame, Record, SectionView, Sliding, Snapshot};
+use super::transfer::Remap;
 use crate::curve::Status;
-use crate::impact::contact::Wall;
 use crate::impact::kernel::PointView;
-use crate::impact::record::{Frame, Record, SectionView, Sliding, Snapshot};
-use crate::impact::remap::Remap;
+use crate::impact::run::{Run, UNSTABLE};
+use crate::impact::wall::meridian::Wall;
 use crate::material::stress::Constitutive;
 use crate::plan::Geometry;
 use crate::space::Space;

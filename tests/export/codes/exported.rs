@@ -2,9 +2,10 @@
 
 use super::{build, put_input, rows, skipped, succeed, write};
 use impactlaw::export::check::{lammps as check_lammps, liggghts as check_liggghts};
-use impactlaw::export::portable::Portable;
 use impactlaw::export::scene::Code;
-use impactlaw::export::{Artifact, lammps, liggghts};
+use impactlaw::export::source::artifact::Artifact;
+use impactlaw::export::source::portable::Portable;
+use impactlaw::export::{lammps, liggghts};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 

@@ -2,10 +2,10 @@
 
 pub mod exported;
 
-use impactlaw::export::Artifact;
+use impactlaw::export::c::kernel;
 use impactlaw::export::check::{Check, Finding, run};
-use impactlaw::export::kernel;
-use impactlaw::export::portable::Portable;
+use impactlaw::export::source::artifact::Artifact;
+use impactlaw::export::source::portable::Portable;
 use impactlaw::law::Form;
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -1,0 +1,7 @@
+//! Measures of a bed: time series, fabric, slopes, flow.
+
+pub mod fabric;
+pub mod flow;
+pub mod gauge;
+pub mod repose;
+pub mod series;

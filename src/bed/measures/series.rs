@@ -1,0 +1,218 @@
+//! Row of the bed's time series, and the account of its energy.
+
+use crate::dem::bodies::enclosure::{PISTON, Room};
+use crate::dem::dynamics::any::AnyBed;
+use crate::dem::dynamics::state::{Energies, Packing};
+use crate::material::Material;
+use crate::tape::keep_fields;
+use serde::Serialize;
+
+/// One instant of a bed. Field names are the header of `bed.csv`.
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+pub struct Row {
+    /// Stage.
+    pub stage: String,
+    /// Time, s.
+    pub time_s: f64,
+    /// Steps done.
+    pub step: u64,
+    /// Time step, s.
+    pub time_step_s: f64,
+    /// Height of the piston's face, or of the highest grain while the piston is parked, m.
+    pub height_m: f64,
+    /// Compression since the seating stress was reached for good, over the height then.
+    pub strain: f64,
+    /// Stress on the piston.
+    #[serde(rename = "stress_Pa")]
+    pub stress_pa: f64,
+    /// Mean normal stress on the four walls.
+    #[serde(rename = "lateral_stress_Pa")]
+    pub lateral_stress_pa: f64,
+    /// Vertical stress inside, from the contacts between grains.
+    #[serde(rename = "virial_stress_Pa")]
+    pub virial_stress_pa: f64,
+    /// Contacts between grains per grain.
+    pub coordination: f64,
+    /// Volume of the grains over that of the bed.
+    pub solid_fraction: f64,
+    /// Largest overlap over the diameter.
+    pub max_overlap_ratio: f64,
+    /// Contacts flattened beyond what the law's source supports.
+    pub beyond_validity: usize,
+    /// Fastest grain.
+    pub max_speed_m_s: f64,
+    /// Inertial number: strain rate times diameter times root of density over stress; 0 without a stress.
+    pub inertial_number: f64,
+    /// Kinetic energy.
+    #[serde(rename = "kinetic_J")]
+    pub kinetic_j: f64,
+    /// Energy in gravity, above the floor.
+    #[serde(rename = "potential_J")]
+    pub potential_j: f64,
+    /// Energy recoverable from normal contact.
+    #[serde(rename = "elastic_J")]
+    pub elastic_j: f64,
+    /// Energy in tangential and rolling springs.
+    #[serde(rename = "springs_J")]
+    pub springs_j: f64,
+    /// Dissipated by friction.
+    #[serde(rename = "friction_J")]
+    pub friction_j: f64,
+    /// Dissipated by rolling resistance.
+    #[serde(rename = "rolling_J")]
+    pub rolling_j: f64,
+    /// Dissipated by damping.
+    #[serde(rename = "damping_J")]
+    pub damping_j: f64,
+    /// Dissipated by plastic flow.
+    #[serde(rename = "plastic_J")]
+    pub plastic_j: f64,
+    /// Work done by driven bodies.
+    #[serde(rename = "driven_work_J")]
+    pub driven_work_j: f64,
+    /// Work done by raising the stiffness.
+    #[serde(rename = "stiffening_work_J")]
+    pub stiffening_work_j: f64,
+    /// Energy present and dissipated less work done, minus the same at the start.
+    #[serde(rename = "imbalance_J")]
+    pub imbalance_j: f64,
+}
+keep_fields!(Row: stage, time_s, step, time_step_s, height_m, strain, stress_pa, lateral_stress_pa, virial_stress_pa, coordination, solid_fraction, max_overlap_ratio, beyond_validity, max_speed_m_s, inertial_number, kinetic_j, potential_j, elastic_j, springs_j, friction_j, rolling_j, damping_j, plastic_j, driven_work_j, stiffening_work_j, imbalance_j);
+
+/// What a row needs beside the bed.
+#[derive(Debug, Clone, Copy)]
+pub struct View<'a> {
+    /// The box.
+    pub room: &'a Room,
+    /// Grain material.
+    pub material: &'a Material,
+    /// Volume of all grains, m3.
+    pub grain_volume: f64,
+    /// Mean diameter, m.
+    pub diameter: f64,
+}
+
+/// Where a stage has got to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Progress {
+    /// Stage.
+    pub stage: String,
+    /// Speed of the piston, m/s; 0 while it is parked.
+    pub piston_speed: f64,
+    /// Height at which the seating stress began to be sustained, m; none before that is known.
+    pub seated_height: Option<f64>,
+    /// Energy balance at the start of the account, J.
+    pub first_balance: f64,
+}
+keep_fields!(Progress: stage, piston_speed, seated_height, first_balance);
+
+impl View<'_> {
+    /// Stress on the piston, Pa.
+    #[must_use]
+    pub fn stress(&self, bed: &dyn AnyBed) -> f64 {
+        let piston = bed.machine().find(PISTON);
+        piston.map_or(0.0, |piston| bed.force_on(piston).z / self.room.area())
+    }
+
+    /// Height of the piston's face, m.
+    #[must_use]
+    pub fn face(&self, bed: &dyn AnyBed) -> f64 {
+        let piston = bed.machine().find(PISTON);
+        piston.map_or(self.room.height, |piston| {
+            bed.machine().stations[piston].centre.z - 0.5 * self.room.thickness
+        })
+    }
+
+    /// Row of the present instant.
+    #[must_use]
+    pub fn row(
+        &self,
+        bed: &dyn AnyBed,
+        packing: &Packing,
+        energies: &Energies,
+        progress: &Progress,
+    ) -> Row {
+        let (dt, time, step) = bed.clock();
+        let stress = self.stress(bed);
+        let height = if progress.piston_speed > 0.0 {
+            self.face(bed)
+        } else {
+            packing.top
+        };
+        let volume = self.room.area() * height;
+        let sides = 2.0 * (self.room.width + self.room.depth) * height;
+        let lateral = |name, axis: usize| {
+            let wall = bed.machine().find(name);
+            wall.map_or(0.0, |wall| bed.force_on(wall)[axis].abs())
+        };
+        let rate = progress.piston_speed / height;
+        Row {
+            stage: progress.stage.clone(),
+            time_s: time,
+            step,
+            time_step_s: dt,
+            height_m: height,
+            strain: progress
+                .seated_height
+                .map_or(0.0, |seated| (seated - height) / seated),
+            stress_pa: stress,
+            lateral_stress_pa: (lateral("left", 0)
+                + lateral("right", 0)
+                + lateral("front", 1)
+                + lateral("back", 1))
+                / sides,
+            virial_stress_pa: packing.virial[(2, 2)] / volume,
+            coordination: packing.coordination,
+            solid_fraction: self.grain_volume / volume,
+            max_overlap_ratio: packing.max_overlap_ratio,
+            beyond_validity: packing.beyond_validity,
+            max_speed_m_s: packing.max_speed,
+            inertial_number: if stress > 0.0 {
+                rate * self.diameter * (self.material.density / stress).sqrt()
+            } else {
+                0.0
+            },
+            kinetic_j: energies.kinetic,
+            potential_j: energies.potential,
+            elastic_j: energies.elastic,
+            springs_j: energies.springs,
+            friction_j: energies.friction,
+            rolling_j: energies.rolling,
+            damping_j: energies.damping,
+            plastic_j: energies.plastic,
+            driven_work_j: energies.driven,
+            stiffening_work_j: energies.stiffening,
+            imbalance_j: energies.balance() - progress.first_balance,
+        }
+    }
+}
+
+impl Row {
+    /// Energy dissipated by plastic flow over all energy dissipated so far.
+    #[must_use]
+    pub fn plastic_share(&self) -> f64 {
+        let lost = self.friction_j + self.rolling_j + self.damping_j + self.plastic_j;
+        self.plastic_j / lost.max(f64::MIN_POSITIVE)
+    }
+}
+
+/// Largest imbalance over the largest turnover of energy in a series: the closure of its account.
+#[must_use]
+pub fn closure(rows: &[Row]) -> f64 {
+    let turnover = |row: &Row| {
+        row.kinetic_j
+            + row.elastic_j
+            + row.springs_j
+            + row.friction_j
+            + row.rolling_j
+            + row.damping_j
+            + row.plastic_j
+    };
+    let worst = rows
+        .iter()
+        .fold(0.0f64, |worst, row| worst.max(row.imbalance_j.abs()));
+    let most = rows
+        .iter()
+        .fold(0.0f64, |most, row| most.max(turnover(row)));
+    if most > 0.0 { worst / most } else { worst }
+}

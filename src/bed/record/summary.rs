@@ -1,0 +1,126 @@
+//! Output: the figures of one bed run, `summary.json`.
+
+use crate::bed::measures::gauge::Finding;
+use crate::bed::measures::series::{Row, closure};
+use crate::files::write_atomic;
+use crate::{Error, Result};
+use serde::Serialize;
+use std::path::Path;
+
+/// Figures of one run (keys of `summary.json`).
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Summary {
+    /// Law between the grains.
+    pub law: String,
+    /// Grains.
+    pub grains: usize,
+    /// Time steps.
+    pub steps: u64,
+    /// Time simulated, s.
+    pub time_s: f64,
+    /// Smallest time step used, s.
+    pub time_step_s: f64,
+    /// Wall time, s.
+    pub wall_s: f64,
+    /// Grains times steps over wall time.
+    pub particle_steps_per_s: f64,
+    /// Largest imbalance of energy over the largest turnover.
+    pub energy_closure: f64,
+    /// Largest number of grains seen outside the box.
+    pub lost_grains: usize,
+    /// Largest overlap over diameter.
+    pub max_overlap_ratio: f64,
+    /// Largest number of contacts flattened beyond what the law's source supports.
+    pub beyond_validity: usize,
+    /// Largest stress on the piston.
+    #[serde(rename = "max_stress_Pa")]
+    pub max_stress_pa: f64,
+    /// Strain left when the piston has come off.
+    pub residual_strain: f64,
+    /// Coordination number at the largest strain.
+    pub coordination: f64,
+    /// Inertial number at the largest stress.
+    pub inertial_number: f64,
+    /// Energy dissipated by plastic flow over all energy dissipated.
+    pub plastic_share: f64,
+    /// Contact stiffness over that of the material, as the scene asks for.
+    pub contact_stiffness: f64,
+    /// The same while the packing was made.
+    pub settling_stiffness: f64,
+    /// What the measures of the scene have found.
+    pub findings: Vec<Finding>,
+    /// What must be known before the figures are used.
+    pub warnings: Vec<String>,
+    /// How the run ended.
+    pub status: &'static str,
+}
+
+/// What a run counted as it went.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Counts {
+    /// Grains.
+    pub grains: usize,
+    /// Steps done.
+    pub steps: u64,
+    /// Steps of single grains.
+    pub particle_steps: u64,
+    /// Wall time, s.
+    pub wall_s: f64,
+    /// Grains outside.
+    pub lost: usize,
+    /// Contacts beyond the law's validity.
+    pub beyond_validity: usize,
+    /// Largest overlap over diameter.
+    pub max_overlap_ratio: f64,
+    /// Contact stiffness over that of the material, as the scene asks for.
+    pub contact_stiffness: f64,
+    /// The same while the packing was made.
+    pub settling_stiffness: f64,
+}
+
+impl Summary {
+    /// Figures of a run of `law` from its rows and counts.
+    #[must_use]
+    pub fn new(law: &str, rows: &[Row], counts: Counts) -> Self {
+        let most =
+            |value: fn(&Row) -> f64| rows.iter().max_by(|a, b| value(a).total_cmp(&value(b)));
+        let (peak, deepest, last) = (most(|r| r.stress_pa), most(|r| r.strain), rows.last());
+        let dissipated = |r: &Row| r.friction_j + r.rolling_j + r.damping_j + r.plastic_j;
+        Self {
+            law: law.to_owned(),
+            grains: counts.grains,
+            steps: counts.steps,
+            time_s: last.map_or(0.0, |r| r.time_s),
+            time_step_s: rows
+                .iter()
+                .fold(f64::INFINITY, |dt, r| dt.min(r.time_step_s)),
+            wall_s: counts.wall_s,
+            particle_steps_per_s: counts.particle_steps as f64 / counts.wall_s,
+            energy_closure: closure(rows),
+            lost_grains: counts.lost,
+            max_overlap_ratio: counts.max_overlap_ratio,
+            beyond_validity: counts.beyond_validity,
+            max_stress_pa: peak.map_or(0.0, |r| r.stress_pa),
+            residual_strain: last.map_or(0.0, |r| r.strain),
+            coordination: deepest.map_or(0.0, |r| r.coordination),
+            inertial_number: peak.map_or(0.0, |r| r.inertial_number),
+            plastic_share: last.map_or(0.0, |r| r.plastic_j / dissipated(r).max(f64::MIN_POSITIVE)),
+            contact_stiffness: counts.contact_stiffness,
+            settling_stiffness: counts.settling_stiffness,
+            findings: Vec::new(),
+            warnings: Vec::new(),
+            status: "ok",
+        }
+    }
+
+    /// Writes `summary.json` into `folder`.
+    ///
+    /// # Errors
+    /// [`Error::File`] when it cannot be written.
+    pub fn write(&self, folder: &Path) -> Result<()> {
+        let path = folder.join("summary.json");
+        let text = serde_json::to_string_pretty(self)
+            .map_err(|e| Error::file("write", &path)(e.into()))?;
+        write_atomic(&path, text.as_bytes())
+    }
+}

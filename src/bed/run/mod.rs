@@ -1,0 +1,325 @@
+//! Run of a scene: one packing, then the same stages under each law, side by side.
+
+pub mod assembly;
+pub mod packing;
+
+use self::assembly::{Recipe, Start, assemble, elastic, laws, machine};
+use crate::bed::filling::{check_bodies, insert};
+use crate::bed::measures::series::Row;
+use crate::bed::record::Record;
+use crate::bed::record::oedometer;
+use crate::bed::record::summary::{Counts, Summary};
+use crate::bed::scene::{Scene, Stage};
+use crate::bed::stages::time_step;
+use crate::bed::stages::{Done, Observer, Run};
+use crate::bed::view::film::Frame;
+use crate::bed::view::picture::write_picture;
+use crate::bed::view::portrait::{Cast, Portrait};
+use crate::dem::dynamics::any::AnyBed;
+use crate::dem::grains::Grains;
+use crate::files::write_rows;
+use crate::law::{AnyLaw, LawFile};
+use crate::tape::{Checkpoint, Keeper, TakenUp, keep_fields};
+use crate::{Error, Result};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// Overlap over diameter above which a warning is given: contacts of one grain are then no longer apart.
+const DEEP: f64 = 0.05;
+/// File a run under way is kept in.
+const RESTART: &str = "restart.bin";
+
+/// How to run a scene.
+pub struct Options<'a> {
+    /// Folder for the files.
+    pub folder: &'a Path,
+    /// First line of every CSV file.
+    pub provenance: &'a str,
+    /// Seed instead of the scene's.
+    pub seed: Option<u64>,
+    /// How often a run saves a checkpoint, from which the same call resumes after an interruption; never if none.
+    pub checkpoint: Option<Duration>,
+    /// Told what is being run, and of every row.
+    pub progress: &'a (dyn Fn(&str, &Row) + Sync),
+}
+
+/// One law's run.
+pub struct LawRun {
+    /// Name in the scene.
+    pub law: String,
+    /// Time series.
+    pub rows: Vec<Row>,
+    /// Figures.
+    pub summary: Summary,
+    /// Grains at the end.
+    pub grains: Grains,
+    /// The bed at the largest strain, or at the end, for a picture.
+    pub portrait: Portrait,
+    pub(in crate::bed) record: Record,
+}
+
+/// A scene's run.
+pub struct BedReport {
+    /// Making of the packing that all laws start from, if the scene makes one.
+    pub packing: Option<LawRun>,
+    /// The laws, in the scene's order.
+    pub laws: Vec<LawRun>,
+    /// Stress, strain, coordination and dissipation of all laws: `oedometer.csv`.
+    pub oedometer: PathBuf,
+    /// Beds at the largest strain, side by side: `bed.png`.
+    pub picture: PathBuf,
+}
+
+/// Runs a scene and writes its files; `given` is the law file beside the scene.
+///
+/// Call it from a worker of a rayon pool (`rayon::scope`), or every step pays for a change of threads.
+///
+/// # Errors
+/// Before the first step [`crate::Error::Argument`] when the scene wants a fitted law and there is none, or one of
+/// another material, and [`crate::Error::Value`] when grains or bodies have no room or the time step is too large;
+/// then [`crate::Error::Bed`] when a bed cannot go on and [`crate::Error::File`] when a file cannot be written.
+pub fn run_scene(scene: &Scene, given: Option<&LawFile>, options: &Options) -> Result<BedReport> {
+    let names = scene.laws.iter();
+    let laws: Vec<Vec<AnyLaw>> = names
+        .map(|name| laws(scene, name, given))
+        .collect::<Result<_>>()?;
+    let mut start = begin(scene, options)?;
+    let prepares = scene.stages.iter().any(Stage::prepares);
+    let packing = match prepares {
+        true => Some(pack(scene, &mut start, options)?),
+        false => None,
+    };
+    let mut runs = Vec::new();
+    for (name, laws) in scene.laws.iter().zip(laws) {
+        runs.push(under_law(scene, name, laws, &start, options)?);
+    }
+    let oedometer = options.folder.join("bed/oedometer.csv");
+    let series = runs.iter().map(|run| (run.law.as_str(), &run.rows[..]));
+    oedometer::write(&oedometer, options.provenance, series)?;
+    let picture = options.folder.join("bed/bed.png");
+    let portraits: Vec<(&str, &Portrait)> = runs
+        .iter()
+        .map(|run| (run.law.as_str(), &run.portrait))
+        .collect();
+    write_picture(&picture, &portraits)?;
+    // all is written: what an interrupted call would have gone on from is not needed any more
+    for run in packing.iter().chain(&runs) {
+        run.record.discard();
+        if let Some(checkpoint) = checkpoint(&run.law, options) {
+            Keeper::new(&checkpoint, "").forget();
+        }
+    }
+    Ok(BedReport {
+        packing,
+        laws: runs,
+        oedometer,
+        picture,
+    })
+}
+
+/// The scene before its first step, grains and bodies checked.
+pub(in crate::bed) fn begin(scene: &Scene, options: &Options) -> Result<Start> {
+    let (grains, feed, room) = insert(scene, options.seed.unwrap_or(scene.seed))?;
+    time_step::check(scene)?;
+    check_bodies(scene, &grains, &machine(scene, &room)?)?;
+    Ok(Start {
+        grains,
+        bodies: None,
+        time: 0.0,
+        feed,
+        room,
+    })
+}
+
+/// Makes the packing with softened elastic contacts.
+pub(in crate::bed) fn pack(scene: &Scene, start: &mut Start, options: &Options) -> Result<LawRun> {
+    let began = Instant::now();
+    let contact = scene.stages.iter().find_map(|stage| match stage {
+        Stage::Settle { contact, .. } => Some(*contact),
+        _ => None,
+    });
+    let recipe = Recipe {
+        laws: elastic(scene),
+        contact: &contact.unwrap_or(scene.contact),
+        by_pair: false,
+    };
+    let bed = assemble(scene, start, &recipe)?;
+    let mut observer = Watch::new("packing", scene, options);
+    let checkpoint = checkpoint("packing", options);
+    let plan = format!("{} {:?} packing", scene.hash, options.seed);
+    let mut run = Run::new(bed, scene, start.room, start.feed.clone(), &mut observer);
+    let stages: Vec<&Stage> = scene.stages.iter().filter(|s| s.prepares()).collect();
+    go(&mut run, &stages, &plan, checkpoint.as_ref())?;
+    start.grains = run.bed.grains().clone();
+    start.bodies = Some(run.bed.machine().state());
+    start.time = run.bed.clock().1;
+    start.feed = run.feed.clone();
+    start.feed.restart_clock(start.time);
+    let done = run.done();
+    finish("packing", scene, done, observer.record, began, options)
+}
+
+/// Runs the stages after the packing under one law.
+fn under_law(
+    scene: &Scene,
+    name: &str,
+    laws: Vec<AnyLaw>,
+    start: &Start,
+    options: &Options,
+) -> Result<LawRun> {
+    let began = Instant::now();
+    let recipe = Recipe {
+        laws,
+        contact: &scene.contact,
+        by_pair: true,
+    };
+    let plan = format!("{} {:?} {name} {:?}", scene.hash, options.seed, recipe.laws);
+    let bed = assemble(scene, start, &recipe)?;
+    let mut observer = Watch::new(name, scene, options);
+    let checkpoint = checkpoint(name, options);
+    let mut run = Run::new(bed, scene, start.room, start.feed.clone(), &mut observer);
+    let stages: Vec<&Stage> = scene.stages.iter().filter(|s| !s.prepares()).collect();
+    go(&mut run, &stages, &plan, checkpoint.as_ref())?;
+    let done = run.done();
+    finish(name, scene, done, observer.record, began, options)
+}
+
+/// Takes up what was kept of a run, and runs its stages to their end.
+fn go<'a>(
+    run: &mut Run<'a>,
+    stages: &[&Stage],
+    plan: &str,
+    checkpoint: Option<&'a Checkpoint>,
+) -> Result<()> {
+    if let Some(checkpoint) = checkpoint {
+        let path = checkpoint.path().display();
+        match run.keep_by(Keeper::new(checkpoint, plan)) {
+            TakenUp::Nothing => {}
+            TakenUp::Run => tracing::info!("resumed at step {} from {path}", run.bed.clock().2),
+            TakenUp::Other => {
+                tracing::warn!("{path} is of another scene, law, seed or program: started anew");
+            }
+            TakenUp::Damaged => {
+                return Err(Error::Bed {
+                    step: 0,
+                    reason: format!("{path} is damaged; remove it to start anew"),
+                });
+            }
+        }
+    }
+    run.stages(stages)
+}
+
+/// Where a run is kept, if it is.
+fn checkpoint(name: &str, options: &Options) -> Option<Checkpoint> {
+    let path = folder(options, name).join(RESTART);
+    Some(Checkpoint::new(&path, options.checkpoint?))
+}
+
+/// Writes the files of one run.
+fn finish(
+    name: &str,
+    scene: &Scene,
+    run: Done,
+    record: Record,
+    began: Instant,
+    options: &Options,
+) -> Result<LawRun> {
+    let softening = scene.contact.softening();
+    let settling_stiffness =
+        scene
+            .stages
+            .iter()
+            .fold(softening, |softest: f64, stage| match stage {
+                Stage::Settle { stiffness, .. } => softest.min(*stiffness),
+                _ => softest,
+            });
+    let counts = Counts {
+        grains: run.bed.grains().len(),
+        steps: run.bed.clock().2,
+        particle_steps: run.tally.particle_steps,
+        wall_s: run.seconds_before + began.elapsed().as_secs_f64(),
+        lost: run.tally.lost,
+        beyond_validity: run.tally.beyond_validity,
+        max_overlap_ratio: run.tally.max_overlap_ratio,
+        contact_stiffness: softening,
+        settling_stiffness,
+    };
+    let mut summary = Summary::new(name, &run.rows, counts);
+    let findings = run.gauges.iter();
+    let findings = findings.flat_map(|gauge| gauge.findings(run.bed.as_ref(), scene));
+    summary.findings = findings.collect();
+    summary.warnings = warnings(scene, &run);
+    let folder = folder(options, name);
+    write_rows(&folder.join("bed.csv"), options.provenance, &run.rows)?;
+    let title = format!("{}: {name}", scene.name);
+    let told = format!("{} grains, {} steps", summary.grains, summary.steps);
+    record.finish(run.bed.as_ref(), &title, &told)?;
+    summary.write(&folder)?;
+    let cast = Cast::of(run.bed.as_ref());
+    let now = || Frame::of(run.bed.as_ref(), "");
+    Ok(LawRun {
+        law: name.to_owned(),
+        rows: run.rows,
+        summary,
+        grains: run.bed.grains().clone(),
+        portrait: cast.at(&run.deepest.unwrap_or_else(now)),
+        record,
+    })
+}
+
+/// What a user must know before the figures are used.
+fn warnings(scene: &Scene, run: &Done) -> Vec<String> {
+    let (tally, mut warnings) = (&run.tally, Vec::new());
+    if tally.lost > 0 {
+        warnings.push(format!(
+            "{} grains were outside the room; they are still listed in the files",
+            tally.lost
+        ));
+    }
+    if tally.beyond_validity > 0 {
+        warnings.push(format!(
+            "{} contacts at once were flattened beyond the range of the law: it was extrapolated",
+            tally.beyond_validity
+        ));
+    }
+    if tally.max_overlap_ratio > DEEP {
+        warnings.push(format!(
+            "grains overlapped by up to {:.1} % of a diameter: contacts influence each other there",
+            100.0 * tally.max_overlap_ratio
+        ));
+    }
+    if !run.feed.is_done(scene) {
+        warnings.push("not all grains came in".to_owned());
+    }
+    warnings
+}
+
+fn folder(options: &Options, name: &str) -> PathBuf {
+    options.folder.join("bed").join(name)
+}
+
+/// Passes rows on to the files and to the progress shown.
+struct Watch<'a> {
+    name: String,
+    record: Record,
+    progress: &'a (dyn Fn(&str, &Row) + Sync),
+}
+keep_fields!(impl [] Watch<'_>: record);
+
+impl<'a> Watch<'a> {
+    fn new(name: &str, scene: &Scene, options: &Options<'a>) -> Self {
+        Self {
+            name: name.to_owned(),
+            record: Record::new(&folder(options, name), options.provenance, scene.output),
+            progress: options.progress,
+        }
+    }
+}
+
+impl Observer for Watch<'_> {
+    fn row(&mut self, bed: &dyn AnyBed, row: &Row) -> Result<()> {
+        (self.progress)(&self.name, row);
+        self.record.row(bed, row)
+    }
+}

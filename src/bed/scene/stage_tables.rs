@@ -1,0 +1,315 @@
+//! Stages as they are written, and the order they must follow.
+
+use super::at::At;
+use super::drive::DrivenTable;
+use super::stage::{Change, Duration, Move, RunStage, Stage, Until};
+use crate::Result;
+use crate::dem::bodies::motion::Motion;
+use crate::dem::force::named::Constants;
+use crate::document::Document;
+use crate::error::must_be_one_of;
+use crate::unit::{Energy, Force, Length, Pressure, Quantity, Time, Velocity};
+use serde::Deserialize;
+
+/// Stage as it is written.
+#[derive(Debug, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+pub(super) enum StageTable {
+    Settle {
+        stiffness: Option<f64>,
+        friction: Option<f64>,
+        restitution: Option<f64>,
+        longest: Quantity<Time>,
+        rest_speed: Quantity<Velocity>,
+    },
+    Relax {
+        steps: u64,
+    },
+    Compress {
+        speed: Quantity<Velocity>,
+        seating_stress: Quantity<Pressure>,
+        seating_travel: Option<Quantity<Length>>,
+        strain: f64,
+    },
+    Unload {
+        speed: Quantity<Velocity>,
+    },
+    Run {
+        name: Option<String>,
+        duration: Option<Quantity<Time>>,
+        steps: Option<u64>,
+        #[serde(default)]
+        insert: Vec<String>,
+        #[serde(default, rename = "move")]
+        moves: Vec<MoveTable>,
+        #[serde(default)]
+        until: UntilTable,
+    },
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct MoveTable {
+    body: String,
+    driven: Option<DrivenTable>,
+    #[serde(default)]
+    stop: bool,
+    #[serde(default)]
+    remove: bool,
+    #[serde(default)]
+    release: bool,
+}
+
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct UntilTable {
+    rest_speed: Option<Quantity<Velocity>>,
+    kinetic_energy: Option<Quantity<Energy>>,
+    stress: Option<Quantity<Pressure>>,
+    force: Option<ForceTable>,
+    flow_ended: Option<Quantity<Time>>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ForceTable {
+    body: String,
+    above: Quantity<Force>,
+}
+
+/// What stages refer to.
+pub(super) struct Cast<'a> {
+    /// Effects where a stage says nothing.
+    pub(super) contact: &'a Constants,
+    /// Names of the bodies, box walls included.
+    pub(super) bodies: Vec<String>,
+    /// Names of the groups of grains.
+    pub(super) groups: Vec<String>,
+    /// Whether there is a box.
+    pub(super) boxed: bool,
+}
+
+/// Checks stages one by one and their order.
+pub(super) fn check_stages(
+    document: &Document,
+    stages: Vec<StageTable>,
+    cast: &Cast,
+) -> Result<Vec<Stage>> {
+    let mut checked: Vec<Stage> = Vec::new();
+    for (index, table) in stages.into_iter().enumerate() {
+        let at = format!("stage[{index}]");
+        let stage = table.check(document, &at, cast)?;
+        let order_holds = match (checked.last(), &stage) {
+            (None, Stage::Settle { .. } | Stage::Compress { .. } | Stage::Run(_)) => true,
+            (Some(last), Stage::Relax { .. }) => matches!(last, Stage::Settle { .. }),
+            (Some(last), Stage::Compress { .. }) => !matches!(last, Stage::Compress { .. }),
+            (Some(last), Stage::Unload { .. }) => matches!(last, Stage::Compress { .. }),
+            (Some(_), Stage::Run(_)) => true,
+            _ => false,
+        };
+        if !order_holds {
+            let order = "must follow the order settle, relax, then run, compress and unload as often as wanted";
+            return Err(document.reject(&format!("{at}.kind"), order));
+        }
+        if matches!(stage, Stage::Compress { .. }) && !cast.boxed {
+            let allowed = "needs a `[box]`, whose piston compresses the bed; or move a body of your own in a stage \"run\"";
+            return Err(document.reject(&format!("{at}.kind"), allowed));
+        }
+        checked.push(stage);
+    }
+    check_preparation(document, &checked, cast.contact)?;
+    Ok(checked)
+}
+
+/// That a packing made with softer contacts is brought to the scene's stiffness.
+fn check_preparation(document: &Document, stages: &[Stage], contact: &Constants) -> Result<()> {
+    match stages.first() {
+        None => Err(document.reject("stage", "must hold at least one stage")),
+        Some(Stage::Settle { stiffness, .. }) if *stiffness > contact.softening() => {
+            let allowed =
+                "must not be stiffer than the contacts of the scene (`contact.stiffness`)";
+            Err(document.reject("stage[0].stiffness", allowed))
+        }
+        Some(Stage::Settle { stiffness, .. })
+            if *stiffness < contact.softening()
+                && !matches!(stages.get(1), Some(Stage::Relax { .. })) =>
+        {
+            let allowed = "must have a stage \"relax\" after the softer stage \"settle\", which raises the stiffness";
+            Err(document.reject("stage", allowed))
+        }
+        _ => Ok(()),
+    }
+}
+
+impl StageTable {
+    fn check(self, document: &Document, key: &str, cast: &Cast) -> Result<Stage> {
+        let at = At { document, key };
+        Ok(match self {
+            StageTable::Settle {
+                stiffness,
+                friction,
+                restitution,
+                longest,
+                rest_speed,
+            } => Stage::Settle {
+                stiffness: document.check(
+                    &at.name("stiffness"),
+                    stiffness.unwrap_or(cast.contact.softening()),
+                    |s| s > 0.0 && s <= 1.0,
+                    "must lie in (0, 1]",
+                )?,
+                contact: settling_contact(&at, friction, restitution, cast.contact)?,
+                longest: at.positive("longest", longest)?,
+                rest_speed: at.positive("rest_speed", rest_speed)?,
+            },
+            StageTable::Relax { steps } => Stage::Relax {
+                steps: at_least_one(&at, steps)?,
+            },
+            StageTable::Compress {
+                speed,
+                seating_stress,
+                seating_travel,
+                strain,
+            } => Stage::Compress {
+                speed: at.positive("speed", speed)?,
+                seating_stress: at.positive("seating_stress", seating_stress)?,
+                seating_travel: some(&at, "seating_travel", seating_travel)?.unwrap_or(0.0),
+                strain: document.check(
+                    &at.name("strain"),
+                    strain,
+                    |s| s > 0.0 && s <= 0.2,
+                    "must lie in (0, 0.2]",
+                )?,
+            },
+            StageTable::Unload { speed } => Stage::Unload {
+                speed: at.positive("speed", speed)?,
+            },
+            StageTable::Run {
+                name,
+                duration,
+                steps,
+                insert,
+                moves,
+                until,
+            } => Stage::Run(RunStage {
+                name: name.unwrap_or_else(|| "run".to_owned()),
+                insert: insert
+                    .iter()
+                    .map(|group| one_of(&at, "insert", group, &cast.groups))
+                    .collect::<Result<_>>()?,
+                moves: moves
+                    .into_iter()
+                    .enumerate()
+                    .map(|(index, table)| {
+                        let key = format!("{key}.move[{index}]");
+                        table.check(document, &key, cast)
+                    })
+                    .collect::<Result<_>>()?,
+                longest: longest(&at, duration, steps)?,
+                until: until.check(document, &at.name("until"), cast)?,
+            }),
+        })
+    }
+}
+
+fn some<D>(at: &At, name: &str, quantity: Option<Quantity<D>>) -> Result<Option<f64>> {
+    quantity.map(|q| at.positive(name, q)).transpose()
+}
+
+fn one_of(at: &At, name: &str, wanted: &str, names: &[String]) -> Result<usize> {
+    let place = names.iter().position(|name| name == wanted);
+    place.ok_or_else(|| at.reject(name, &must_be_one_of(names)))
+}
+
+fn at_least_one(at: &At, steps: u64) -> Result<u64> {
+    match steps {
+        0 => Err(at.document.reject(&at.name("steps"), "must be at least 1")),
+        steps => Ok(steps),
+    }
+}
+
+fn longest(at: &At, duration: Option<Quantity<Time>>, steps: Option<u64>) -> Result<Duration> {
+    match (duration, steps) {
+        (Some(duration), None) => Ok(Duration::Time(at.positive("duration", duration)?)),
+        (None, Some(steps)) => Ok(Duration::Steps(at_least_one(at, steps)?)),
+        _ => Err(at.document.reject(
+            &at.name("duration"),
+            "must say how long the stage may last: either `duration` or `steps`",
+        )),
+    }
+}
+
+fn settling_contact(
+    at: &At,
+    friction: Option<f64>,
+    restitution: Option<f64>,
+    contact: &Constants,
+) -> Result<Constants> {
+    let check = |name: &str, value: Option<f64>, holds: fn(f64) -> bool, must: &str| {
+        value
+            .map(|value| at.document.check(&at.name(name), value, holds, must))
+            .transpose()
+    };
+    let friction = check("friction", friction, |mu| mu >= 0.0, "must not be negative")?;
+    let restitution = check(
+        "restitution",
+        restitution,
+        |e| e > 0.0 && e <= 1.0,
+        "must lie in (0, 1]",
+    )?;
+    Ok(Constants {
+        friction: friction.or(contact.friction).filter(|mu| *mu > 0.0),
+        rolling: None,
+        restitution: restitution.or(contact.restitution),
+        stiffness: contact.stiffness,
+    })
+}
+
+impl MoveTable {
+    fn check(self, document: &Document, key: &str, cast: &Cast) -> Result<Move> {
+        let at = At { document, key };
+        one_of(&at, "body", &self.body, &cast.bodies)?;
+        let change = match (&self.driven, self.stop, self.remove, self.release) {
+            (Some(driven), false, false, false) => {
+                Change::Drive(driven.check(document, &at.name("driven"))?)
+            }
+            (None, true, false, false) => Change::Drive(Motion::default()),
+            (None, false, true, false) => Change::Remove,
+            (None, false, false, true) => Change::Release,
+            _ => {
+                let allowed = "must hold one change: `driven = {...}`, `stop = true`, `remove = true` or `release = true`";
+                return Err(document.reject(key, allowed));
+            }
+        };
+        Ok(Move {
+            body: self.body,
+            change,
+        })
+    }
+}
+
+impl UntilTable {
+    fn check(self, document: &Document, key: &str, cast: &Cast) -> Result<Until> {
+        let at = At { document, key };
+        if self.stress.is_some() && !cast.boxed {
+            let allowed =
+                "needs a `[box]`, whose piston it is the stress on; or use `force` on a body";
+            return Err(document.reject(&at.name("stress"), allowed));
+        }
+        let force = match self.force {
+            Some(force) => {
+                one_of(&at, "force.body", &force.body, &cast.bodies)?;
+                let above = at.positive("force.above", force.above)?;
+                Some((force.body, above))
+            }
+            None => None,
+        };
+        Ok(Until {
+            rest_speed: some(&at, "rest_speed", self.rest_speed)?,
+            kinetic_energy: some(&at, "kinetic_energy", self.kinetic_energy)?,
+            stress: some(&at, "stress", self.stress)?,
+            force,
+            flow_ended: some(&at, "flow_ended", self.flow_ended)?,
+        })
+    }
+}

@@ -1,0 +1,385 @@
+//! Protocol: the stages of a scene, run one after the other on one bed, step by step.
+
+pub mod acts;
+pub mod time_step;
+
+use self::time_step::Limits;
+use crate::bed::filling::feed::Feed;
+use crate::bed::measures::gauge::Gauge;
+use crate::bed::measures::series::{Progress, Row, View};
+use crate::bed::scene::{Scene, Stage};
+use crate::bed::view::film::Frame;
+use crate::dem::bodies::enclosure::{PISTON, Room};
+use crate::dem::dynamics::any::AnyBed;
+use crate::dem::dynamics::state::Packing;
+use crate::tape::{Keep, Keeper, TakenUp, keep_fields};
+use crate::{Error, Result};
+use parry3d::math::Vector;
+
+/// Steps between checks of time step, overlap and rest.
+pub const CHECK_EVERY: u64 = 50;
+/// Overlap over diameter at which a bed has left every contact law's ground and is stopped.
+const TOO_DEEP: f64 = 0.25;
+
+/// Receives what a run produces as it goes, and is kept with it.
+pub trait Observer: Keep {
+    /// A new row; the bed is as the row says.
+    ///
+    /// # Errors
+    /// Whatever stops the run, e.g. a file that cannot be written.
+    fn row(&mut self, bed: &dyn AnyBed, row: &Row) -> Result<()>;
+}
+
+impl Observer for () {
+    fn row(&mut self, _: &dyn AnyBed, _: &Row) -> Result<()> {
+        Ok(())
+    }
+}
+
+/// What a run counts as it goes.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Tally {
+    /// Largest number of grains seen outside the room.
+    pub lost: usize,
+    /// Largest overlap over diameter seen.
+    pub max_overlap_ratio: f64,
+    /// Largest number of contacts seen beyond the validity of the law.
+    pub beyond_validity: usize,
+    /// Steps of single grains.
+    pub particle_steps: u64,
+}
+keep_fields!(Tally: lost, max_overlap_ratio, beyond_validity, particle_steps);
+
+/// Where a run is within its stage: all that going on needs beside the bed.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Place {
+    /// Whether the stage has begun.
+    pub begun: bool,
+    /// Time the stage began, s.
+    pub time: f64,
+    /// Step the stage began at.
+    pub step: u64,
+    /// When the next row falls due, on the stage's clock.
+    pub next_row: f64,
+    /// Between rows, on the stage's clock: time, or steps where the time step changes much.
+    pub interval: f64,
+    /// Height of the piston's face when the stage began, m.
+    pub face: f64,
+    /// Factor by which the stiffness grows in a step.
+    pub growth: f64,
+    /// Step of the last check.
+    pub checked: u64,
+    /// Since when the grains have been slow, s; none while they are not.
+    pub slow_since: Option<f64>,
+    /// Height (m) of the piston's face since which the stress has not been below the seating stress.
+    pub carried_since: Option<f64>,
+}
+keep_fields!(Place: begun, time, step, next_row, interval, face, growth, checked, slow_since, carried_since);
+
+/// A bed going through stages.
+pub struct Run<'a> {
+    /// The bed.
+    pub bed: Box<dyn AnyBed>,
+    /// Rows so far.
+    pub rows: Vec<Row>,
+    /// Counts so far.
+    pub tally: Tally,
+    /// Grains to come.
+    pub feed: Feed,
+    /// Measures under way.
+    pub gauges: Box<[Gauge]>,
+    /// The bed at the end of the last compression.
+    pub deepest: Option<Frame>,
+    pub(in crate::bed) scene: &'a Scene,
+    pub(in crate::bed) room: Room,
+    observer: &'a mut dyn Observer,
+    pub(in crate::bed) progress: Progress,
+    pub(in crate::bed) place: Place,
+    started: bool,
+    pub(in crate::bed) limits: Limits,
+    pub(in crate::bed) softening: f64,
+    /// Stages that have ended.
+    ended: usize,
+    keeper: Option<Keeper<'a>>,
+}
+keep_fields!(impl [] Run<'_>: bed, rows, tally, feed, gauges, deepest, observer, progress, place, started, softening,
+    ended);
+
+/// What a run leaves when its stages have ended.
+pub struct Done {
+    /// The bed.
+    pub bed: Box<dyn AnyBed>,
+    /// All rows.
+    pub rows: Vec<Row>,
+    /// All counts.
+    pub tally: Tally,
+    /// Grains that have not come in.
+    pub feed: Feed,
+    /// All measures.
+    pub gauges: Box<[Gauge]>,
+    /// The bed at the end of the last compression.
+    pub deepest: Option<Frame>,
+    /// Seconds the run took before it was resumed.
+    pub seconds_before: f64,
+}
+
+impl<'a> Run<'a> {
+    /// Run of a bed in its `room`.
+    #[must_use]
+    pub fn new(
+        bed: Box<dyn AnyBed>,
+        scene: &'a Scene,
+        room: Room,
+        feed: Feed,
+        observer: &'a mut dyn Observer,
+    ) -> Self {
+        Self {
+            bed,
+            rows: Vec::new(),
+            tally: Tally::default(),
+            feed,
+            gauges: scene.measures.iter().map(Gauge::new).collect(),
+            deepest: None,
+            scene,
+            room,
+            observer,
+            progress: Progress {
+                stage: "start".to_owned(),
+                piston_speed: 0.0,
+                seated_height: None,
+                first_balance: 0.0,
+            },
+            place: Place::default(),
+            started: false,
+            limits: Limits::of(scene),
+            softening: scene.contact.softening(),
+            ended: 0,
+            keeper: None,
+        }
+    }
+
+    /// Takes up what `keeper` finds of this run, and keeps it from now on.
+    pub fn keep_by(&mut self, mut keeper: Keeper<'a>) -> TakenUp {
+        let taken = keeper.take_up_into(self);
+        self.keeper = Some(keeper);
+        taken
+    }
+
+    /// The end of the run.
+    #[must_use]
+    pub fn done(self) -> Done {
+        Done {
+            seconds_before: self.keeper.as_ref().map_or(0.0, Keeper::seconds_before),
+            bed: self.bed,
+            rows: self.rows,
+            tally: self.tally,
+            feed: self.feed,
+            gauges: self.gauges,
+            deepest: self.deepest,
+        }
+    }
+
+    /// Runs the stages that have not ended yet, one after the other.
+    ///
+    /// # Errors
+    /// As [`Run::stage`].
+    pub fn stages(&mut self, stages: &[&Stage]) -> Result<()> {
+        while let Some(stage) = stages.get(self.ended) {
+            self.stage(stage)?;
+            if matches!(stage, Stage::Compress { .. }) {
+                self.deepest = Some(Frame::of(self.bed.as_ref(), stage.name()));
+            }
+            self.ended += 1;
+        }
+        self.keep(true)
+    }
+
+    /// Keeps the run if it is time, or `now`; what it was at the last keeping is what an interrupted run goes on from.
+    fn keep(&mut self, now: bool) -> Result<()> {
+        let Some(mut keeper) = self.keeper.take() else {
+            return Ok(());
+        };
+        let kept = match now || keeper.is_due() {
+            true => keeper.keep(self),
+            false => Ok(()),
+        };
+        self.keeper = Some(keeper);
+        kept
+    }
+
+    /// Runs one stage to its end.
+    ///
+    /// # Errors
+    /// [`Error::Bed`] when the bed cannot go on, with the reason; what the observer returns.
+    pub fn stage(&mut self, stage: &Stage) -> Result<()> {
+        if !self.place.begun {
+            self.progress.stage = stage.name().to_owned();
+            self.begin(stage)?;
+        }
+        loop {
+            let survey = self.prepare()?;
+            self.note(stage, survey.as_ref());
+            for gauge in &mut self.gauges {
+                gauge.read(self.bed.as_ref(), survey.is_some());
+            }
+            self.sample(stage)?;
+            if self.ends(stage, survey.as_ref())? {
+                self.place.begun = false;
+                self.end(stage);
+                return self.record();
+            }
+            self.change(stage);
+            self.tally.particle_steps += self.bed.grains().len() as u64;
+            self.bed.advance()?;
+            if survey.is_some() {
+                self.keep(false)?;
+            }
+        }
+    }
+
+    /// Forces of the present instant; every few steps also grains that come in and the checks, whose survey is
+    /// returned.
+    pub(in crate::bed) fn prepare(&mut self) -> Result<Option<Packing>> {
+        let check = self.step() >= self.place.checked + CHECK_EVERY || self.step() == 0;
+        // at the first step of a later stage forces have been evaluated already, which must happen once
+        if check && (self.step() > self.place.step || self.step() == 0) {
+            self.let_in();
+        }
+        self.bed.evaluate()?;
+        if !self.started {
+            self.started = true;
+            self.bed.start_account();
+            self.progress.first_balance = self.bed.energies().balance();
+        }
+        if !check {
+            return Ok(None);
+        }
+        self.place.checked = self.step();
+        let packing = self.bed.packing();
+        self.set_dt(&packing)?;
+        let outside = self.outside();
+        let tally = &mut self.tally;
+        tally.max_overlap_ratio = tally.max_overlap_ratio.max(packing.max_overlap_ratio);
+        tally.beyond_validity = tally.beyond_validity.max(packing.beyond_validity);
+        tally.lost = tally.lost.max(outside);
+        if packing.max_overlap_ratio > TOO_DEEP {
+            return Err(self.stop(format!(
+                "two grains overlap by {:.0} % of a diameter; no contact law holds there: compress less or more slowly",
+                100.0 * packing.max_overlap_ratio
+            )));
+        }
+        if self.bed.left_out() > 0 {
+            return Err(self.stop(
+                "a grain touches a mesh in too many places; use larger triangles".to_owned(),
+            ));
+        }
+        Ok(Some(packing))
+    }
+
+    /// Lets the grains that are due come in; the energy they bring is not the bed's imbalance.
+    fn let_in(&mut self) {
+        if self.feed.is_done(self.scene) {
+            return;
+        }
+        let (dt, time, _) = self.bed.clock();
+        let newcomers = self.feed.due(self.scene, self.bed.grains(), time);
+        if newcomers.is_empty() {
+            return;
+        }
+        if self.started {
+            let gravity = self.scene.gravity;
+            let brought = newcomers.iter().map(|one| one.energy(gravity, dt));
+            self.progress.first_balance += brought.sum::<f64>();
+        }
+        self.bed.join(&newcomers);
+    }
+
+    /// Changes bodies from outside; the energy this brings in or takes away is not the bed's imbalance.
+    pub(in crate::bed) fn intervene(&mut self, change: impl FnOnce(&mut dyn AnyBed)) {
+        let before = self.bed.energies().balance();
+        change(self.bed.as_mut());
+        self.progress.first_balance += self.bed.energies().balance() - before;
+        self.bed.list_again();
+    }
+
+    /// Sets the time step to what the present state allows, and says so.
+    pub(in crate::bed) fn set_clock(&mut self) -> Result<()> {
+        self.bed.evaluate()?;
+        let packing = self.bed.packing();
+        self.set_dt(&packing)?;
+        tracing::info!(
+            "{}: time step {:.3e} s, stiffness {:.1e} of the true one",
+            self.progress.stage,
+            self.bed.clock().0,
+            self.softening
+        );
+        Ok(())
+    }
+
+    fn set_dt(&mut self, packing: &Packing) -> Result<()> {
+        let dt = self
+            .limits
+            .step(self.softening, packing)
+            .map_err(|reason| self.stop(reason))?;
+        self.bed.set_dt(dt);
+        Ok(())
+    }
+
+    pub(in crate::bed) fn record(&mut self) -> Result<()> {
+        let (packing, energies) = (self.bed.packing(), self.bed.energies());
+        let row = self
+            .view()
+            .row(self.bed.as_ref(), &packing, &energies, &self.progress);
+        self.observer.row(self.bed.as_ref(), &row)?;
+        self.rows.push(row);
+        Ok(())
+    }
+
+    pub(in crate::bed) fn view(&self) -> View<'_> {
+        View {
+            room: &self.room,
+            material: self.scene.material(),
+            grain_volume: self.bed.grains().volume(),
+            diameter: 2.0 * self.scene.radius(),
+        }
+    }
+
+    /// Grains outside the room now.
+    #[must_use]
+    pub fn outside(&self) -> usize {
+        let spheres = &self.bed.grains().spheres;
+        spheres
+            .iter()
+            .filter(|sphere| !self.room.holds(sphere.centre))
+            .count()
+    }
+
+    /// Index of the piston.
+    pub(in crate::bed) fn piston(&self) -> Option<usize> {
+        self.bed.machine().find(PISTON)
+    }
+
+    /// Drives the piston along z at `speed` (m/s).
+    pub(in crate::bed) fn drive_piston(&mut self, speed: f64) {
+        if let Some(piston) = self.piston() {
+            let machine = self.bed.machine_mut();
+            machine.drive(piston, Vector::new(0.0, 0.0, speed));
+        }
+        self.progress.piston_speed = speed.abs();
+    }
+
+    pub(in crate::bed) fn time(&self) -> f64 {
+        self.bed.clock().1
+    }
+
+    pub(in crate::bed) fn step(&self) -> u64 {
+        self.bed.clock().2
+    }
+
+    pub(in crate::bed) fn stop(&self, reason: String) -> Error {
+        Error::Bed {
+            step: self.step(),
+            reason,
+        }
+    }
+}

@@ -1,0 +1,11 @@
+//! Views of a bed: film, portraits, pictures, page.
+
+pub mod canvas;
+pub mod colours;
+pub mod film;
+pub mod lettering;
+pub mod outline;
+pub mod page;
+pub mod picture;
+pub mod portrait;
+pub mod render;

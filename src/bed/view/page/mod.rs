@@ -1,0 +1,284 @@
+//! Page: one HTML file that shows a run in three dimensions, with a time slider, and needs nothing else.
+
+use super::colours::{COLOURS, DECADES, level};
+use super::film::{Film, Frame};
+use super::outline::Outline;
+use crate::dem::dynamics::any::AnyBed;
+use crate::files::write_atomic;
+use crate::{Error, Result};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// Largest size of the frames in a page, bytes before encoding: longer films are thinned.
+const BUDGET: usize = 24_000_000;
+/// Bytes of a grain in a frame: three places of two bytes, one byte for each quantity.
+const GRAIN: usize = 9;
+/// Most frames in a page: more are not seen.
+const MOST: usize = 240;
+/// Part of the grains, at each end of an axis, that the view need not hold: a stray grain does not shrink the bed.
+const STRAY: f64 = 0.002;
+
+const HTML: &str = include_str!("page.html");
+const STYLE: &str = include_str!("page.css");
+const SCRIPT: &str = include_str!("page.js");
+
+/// What grains can be coloured by.
+#[derive(Debug, Serialize)]
+struct Quantity {
+    key: &'static str,
+    name: &'static str,
+    label: &'static str,
+    unit: &'static str,
+    /// Largest value in the film.
+    most: f64,
+}
+
+#[derive(Debug, Serialize)]
+struct ShownFrame {
+    time: f64,
+    stage: String,
+    count: usize,
+    centres: String,
+    levels: BTreeMap<&'static str, String>,
+    poses: Vec<f32>,
+    /// Bodies taken out.
+    gone: Vec<usize>,
+}
+
+#[derive(Debug, Serialize)]
+struct ShownBody<'a> {
+    name: &'a str,
+    free: bool,
+    vertices: String,
+    triangles: String,
+    edges: String,
+}
+
+#[derive(Debug, Serialize)]
+struct Data<'a> {
+    radii: String,
+    /// Lowest corner and size of the block that places are counted in.
+    low: [f32; 3],
+    size: [f32; 3],
+    /// Lowest and highest corner of what the camera looks at.
+    view: [[f32; 3]; 2],
+    quantities: Vec<Quantity>,
+    decades: f64,
+    colours: [[f64; 3]; 7],
+    frames: Vec<ShownFrame>,
+    bodies: Vec<ShownBody<'a>>,
+}
+
+/// Writes the page of a run; `title` and `summary` stand in its corner.
+///
+/// # Errors
+/// [`Error::File`] when a frame cannot be read or the page not written.
+pub fn write_page(
+    path: &Path,
+    title: &str,
+    summary: &str,
+    film: &Film,
+    bed: &dyn AnyBed,
+) -> Result<()> {
+    let grains = bed.grains();
+    let fitting = BUDGET / (GRAIN * grains.len().max(1));
+    let frames = film.spread(fitting.min(MOST))?;
+    let mut radii: Vec<(u32, f64)> = grains
+        .ids
+        .iter()
+        .copied()
+        .zip(grains.spheres.iter().map(|s| s.radius))
+        .collect();
+    radii.sort_unstable_by_key(|&(id, _)| id);
+    let radii: Vec<f32> = radii.iter().map(|&(_, radius)| radius as f32).collect();
+    let bounds = bounds(&frames, 0.0);
+    let size = [0, 1, 2].map(|axis| bounds[1][axis] - bounds[0][axis]);
+    let quantities = quantities(&frames);
+    let data = Data {
+        view: looked_at(&frames, &radii),
+        radii: encode(radii.iter().map(|r| r.to_le_bytes())),
+        low: bounds[0],
+        size,
+        frames: frames
+            .iter()
+            .map(|frame| shown(frame, bounds[0], size, &quantities))
+            .collect(),
+        quantities,
+        decades: DECADES,
+        colours: COLOURS,
+        bodies: bodies(bed),
+    };
+    // "</" would end the script that holds the data; JSON may escape the slash
+    let json = serde_json::to_string(&data)
+        .map_err(|e| Error::file("write", path)(e.into()))?
+        .replace("</", "<\\/");
+    write_atomic(path, html(title, summary, &json).as_bytes())
+}
+
+fn html(title: &str, summary: &str, json: &str) -> String {
+    let mut html = String::with_capacity(HTML.len() + STYLE.len() + SCRIPT.len() + json.len());
+    let mut rest = HTML;
+    while let Some((before, after)) = rest.split_once("{{") {
+        html.push_str(before);
+        let (name, after) = after.split_once("}}").unwrap_or((after, ""));
+        match name {
+            "title" => html.push_str(&escape(title)),
+            "summary" => html.push_str(&escape(summary)),
+            "style" => html.push_str(STYLE),
+            "script" => html.push_str(SCRIPT),
+            _ => html.push_str(json),
+        }
+        rest = after;
+    }
+    html.push_str(rest);
+    html
+}
+
+fn escape(text: &str) -> String {
+    text.replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('"', "&quot;")
+}
+
+fn encode<const N: usize>(numbers: impl Iterator<Item = [u8; N]>) -> String {
+    STANDARD.encode(numbers.flatten().collect::<Vec<u8>>())
+}
+
+/// Lowest and highest centre along each axis, a part of the grains at each end left out.
+fn bounds(frames: &[Frame], stray: f64) -> [[f32; 3]; 2] {
+    let mut bounds = [[0.0; 3]; 2];
+    for axis in 0..3 {
+        let (mut low, mut high) = (f32::INFINITY, f32::NEG_INFINITY);
+        for frame in frames {
+            let mut places: Vec<f32> = frame
+                .centres
+                .iter()
+                .map(|c| c[axis])
+                .filter(|x| x.is_finite())
+                .collect();
+            if places.is_empty() {
+                continue;
+            }
+            places.sort_unstable_by(f32::total_cmp);
+            let skip = (stray * places.len() as f64) as usize;
+            low = low.min(places[skip]);
+            high = high.max(places[places.len() - 1 - skip]);
+        }
+        if low <= high {
+            (bounds[0][axis], bounds[1][axis]) = (low, high);
+        }
+    }
+    bounds
+}
+
+/// Block the camera looks at: nearly all grains of all frames.
+fn looked_at(frames: &[Frame], radii: &[f32]) -> [[f32; 3]; 2] {
+    let largest = radii.iter().copied().fold(0.0, f32::max);
+    let [low, high] = bounds(frames, STRAY);
+    [low.map(|x| x - largest), high.map(|x| x + largest)]
+}
+
+fn quantities(frames: &[Frame]) -> Vec<Quantity> {
+    let most = |values: fn(&Frame) -> &[f32]| {
+        let all = frames.iter().flat_map(values).copied();
+        f64::from(all.fold(f32::MIN_POSITIVE, f32::max))
+    };
+    let quantity = |key, name, label, unit, values: fn(&Frame) -> &[f32]| Quantity {
+        key,
+        name,
+        label,
+        unit,
+        most: most(values),
+    };
+    vec![
+        quantity(
+            "squeeze",
+            "force",
+            "sum of contact forces on a grain",
+            "N",
+            |f| &f.squeeze,
+        ),
+        quantity("speed", "speed", "speed of a grain", "m/s", |f| &f.speed),
+        quantity(
+            "plastic",
+            "plastic work",
+            "energy lost to plastic flow",
+            "J",
+            |f| &f.plastic,
+        ),
+    ]
+}
+
+fn shown(frame: &Frame, low: [f32; 3], size: [f32; 3], quantities: &[Quantity]) -> ShownFrame {
+    let place = |centre: &[f32; 3], axis: usize| {
+        let part = (centre[axis] - low[axis]) / size[axis].max(f32::MIN_POSITIVE);
+        (part.clamp(0.0, 1.0) * f32::from(u16::MAX)).round() as u16
+    };
+    let centres = frame
+        .centres
+        .iter()
+        .flat_map(|centre| [0, 1, 2].map(|axis| place(centre, axis).to_le_bytes()));
+    let levels = quantities
+        .iter()
+        .zip([&frame.squeeze, &frame.speed, &frame.plastic]);
+    let levels = levels.map(|(quantity, values)| {
+        let byte = |&v: &f32| [(level(f64::from(v), quantity.most) * 255.0).round() as u8];
+        (quantity.key, encode(values.iter().map(byte)))
+    });
+    ShownFrame {
+        time: frame.time,
+        stage: frame.stage.clone(),
+        count: frame.centres.len(),
+        centres: encode(centres),
+        levels: levels.collect(),
+        poses: frame.poses.iter().flatten().copied().collect(),
+        gone: frame.gone.clone(),
+    }
+}
+
+fn bodies(bed: &dyn AnyBed) -> Vec<ShownBody<'_>> {
+    let machine = bed.machine();
+    let each = machine.bodies().iter().zip(&machine.surfaces);
+    each.map(|(body, surface)| {
+        let outline = Outline::of(&*surface.shape, machine.unit);
+        let corners = outline.vertices.iter().flat_map(|v| v.to_array());
+        ShownBody {
+            name: &body.name,
+            free: matches!(body.mobility, crate::dem::bodies::Mobility::Free { .. }),
+            vertices: encode(corners.map(|x| (x as f32).to_le_bytes())),
+            triangles: encode(outline.triangles.iter().flatten().map(|i| i.to_le_bytes())),
+            edges: encode(outline.edges.iter().flatten().map(|i| i.to_le_bytes())),
+        }
+    })
+    .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_page_asks_nothing_of_the_network_and_escapes_what_it_is_told() {
+        let html = html("a < b", "\"c\" & d", "{}");
+        assert!(html.contains("<h1>a &lt; b</h1>") && html.contains("&quot;c&quot; &amp; d"));
+        assert!(!html.contains("{{") && html.contains(">{}</script>"));
+        for outside in ["http:", "https:", "src=", "@import", "fetch("] {
+            assert!(!html.contains(outside), "{outside}");
+        }
+    }
+
+    #[test]
+    fn a_stray_grain_does_not_move_the_camera() {
+        let mut centres: Vec<[f32; 3]> = (0..1000).map(|i| [i as f32 * 1e-3; 3]).collect();
+        centres.push([100.0; 3]);
+        let frame = Frame {
+            centres,
+            ..Frame::default()
+        };
+        assert!(looked_at(std::slice::from_ref(&frame), &[0.01])[1][0] < 1.1);
+        assert_eq!(bounds(&[frame], 0.0)[1][0], 100.0);
+    }
+}

@@ -1,0 +1,361 @@
+//! Patches: the contacts of grains with one kind of surface, evaluated by chunks; each keeps its own history.
+
+pub use super::patch::{Held, Patch};
+use crate::contact::pair::Pressed;
+use crate::dem::bodies::machine::Machine;
+use crate::dem::bodies::touching::{Touch, closest, minima};
+use crate::dem::force::effects::ContactLaw;
+use crate::dem::force::meeting::{Losses, Meeting};
+use crate::dem::force::mixture::RIGID;
+use crate::dem::force::normal::{Histories, NormalModel, Squeeze};
+use crate::dem::grains::Grains;
+use parry3d::math::Vector;
+use parry3d::shape::Triangle;
+use rayon::prelude::*;
+
+/// Candidates evaluated by one task. Part of the result: sums of losses run over chunks of this size.
+pub(in crate::dem) const CHUNK: usize = 128;
+/// Least cosine between the normals of one contact at two steps: a contact that turned more is another one.
+const SAME_CONTACT: f64 = 0.9;
+
+/// What a task sums up.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(in crate::dem) struct Tally {
+    pub(in crate::dem) losses: Losses,
+    pub(in crate::dem) left_out: u32,
+}
+
+/// Candidates of one kind of surface: `K` patches for each pair of a grain and a surface near it.
+pub(in crate::dem) struct Family<C: ContactLaw, const K: usize> {
+    /// Grain and surface of each candidate, in order.
+    pub(in crate::dem) candidates: Vec<[u32; 2]>,
+    /// Row of each grain: `candidates[start[i]..start[i + 1]]`.
+    pub(in crate::dem) start: Vec<u32>,
+    /// `K` patches for each candidate.
+    pub(in crate::dem) patches: Vec<Patch<C::Memory>>,
+    /// Normal histories of each chunk of patches.
+    pub(in crate::dem) histories: Vec<Box<dyn Histories>>,
+    pub(in crate::dem) tallies: Vec<Tally>,
+    pub(in crate::dem) spent: Losses,
+}
+
+impl<C: ContactLaw, const K: usize> Default for Family<C, K> {
+    fn default() -> Self {
+        Self {
+            candidates: Vec::new(),
+            start: vec![0],
+            patches: Vec::new(),
+            histories: Vec::new(),
+            tallies: Vec::new(),
+            spent: Losses::default(),
+        }
+    }
+}
+
+/// What a task writes beside its patches.
+struct Task<'a> {
+    histories: &'a mut dyn Histories,
+    tally: &'a mut Tally,
+    scratch: Vec<(Triangle, Vector)>,
+    /// First patch of the present candidate within the chunk.
+    first: usize,
+}
+
+/// What an evaluation reads.
+pub(in crate::dem) struct Situation<'a, C> {
+    /// Effects of the contacts.
+    pub law: &'a C,
+    /// Grains.
+    pub grains: &'a Grains,
+    /// Bodies.
+    pub machine: &'a Machine,
+    /// Time step, s.
+    pub dt: f64,
+}
+
+impl<C: ContactLaw> Situation<'_, C> {
+    /// Evaluates one chunk of candidates.
+    fn meet_all<const K: usize>(
+        &self,
+        candidates: &[[u32; 2]],
+        patches: &mut [Patch<C::Memory>],
+        histories: &mut dyn Histories,
+        tally: &mut Tally,
+    ) {
+        let mut task = Task {
+            histories,
+            tally,
+            scratch: Vec::new(),
+            first: 0,
+        };
+        for (&pair, patches) in candidates.iter().zip(patches.chunks_exact_mut(K)) {
+            self.meet::<K>(pair, patches, &mut task);
+            task.first += K;
+        }
+    }
+
+    /// Evaluates the contacts of one grain with one surface.
+    fn meet<const K: usize>(
+        &self,
+        pair: [u32; 2],
+        patches: &mut [Patch<C::Memory>],
+        task: &mut Task,
+    ) {
+        let [grain, surface] = pair.map(|index| index as usize);
+        let sphere = &self.grains.spheres[grain];
+        let unit = self.machine.unit;
+        let body = &self.machine.surfaces[surface];
+        let centre = body.pose.inverse_transform_point(sphere.centre / unit);
+        let reach = sphere.radius / unit;
+        let place = |task: &mut Task,
+                     k: usize,
+                     patch: &mut Patch<C::Memory>,
+                     touch: Option<&Touch>| {
+            if touch.is_some() || patch.push.touches() {
+                let near = touch.map(|t| (body.pose.transform_vector(t.normal), t.distance * unit));
+                task.tally.losses += self.push(pair, near, patch, task.histories, task.first + k);
+            }
+        };
+        match body.shape.as_trimesh() {
+            Some(mesh) if K > 1 => {
+                let touches = minima(mesh, centre, reach, &mut task.scratch);
+                task.tally.left_out += touches.left_out;
+                let chosen = assign::<C::Memory, K>(touches.as_slice(), patches, |n| {
+                    body.pose.transform_vector(n)
+                });
+                for (k, (patch, touch)) in patches.iter_mut().zip(chosen).enumerate() {
+                    place(task, k, patch, touch.map(|at| &touches.as_slice()[at]));
+                }
+            }
+            _ => place(
+                task,
+                0,
+                &mut patches[0],
+                closest(&*body.shape, centre, reach).as_ref(),
+            ),
+        }
+    }
+
+    /// Calls the law for a grain whose surface point lies at `near` (normal, distance in m), or has gone away.
+    fn push(
+        &self,
+        pair: [u32; 2],
+        near: Option<(Vector, f64)>,
+        patch: &mut Patch<C::Memory>,
+        histories: &mut dyn Histories,
+        at: usize,
+    ) -> Losses {
+        let [grain, surface] = pair.map(|index| index as usize);
+        let sphere = &self.grains.spheres[grain];
+        let motion = &self.grains.motions[grain];
+        let body = &self.machine.stations[surface];
+        let (normal, distance) = near.unwrap_or((patch.normal, sphere.radius));
+        let point = sphere.centre - normal * distance;
+        let surface_velocity = body.velocity + body.spin.cross(point - body.centre);
+        let meeting = Meeting {
+            overlap: sphere.radius - distance,
+            normal,
+            velocity: motion.velocity - surface_velocity,
+            spins: [self.grains.spins[grain].rate, body.spin],
+            radii: [sphere.radius, f64::INFINITY],
+            inverse_distance: 0.0,
+            mass: 1.0 / (motion.inverse_mass + body.inverse_mass),
+            dt: self.dt,
+            materials: [
+                self.grains.material(grain),
+                self.machine.materials[surface].unwrap_or(RIGID),
+            ],
+        };
+        let mut pressed = [Pressed::default()];
+        if meeting.overlap > 0.0 {
+            let squeeze = Squeeze {
+                overlap: meeting.overlap,
+                radii: meeting.radii,
+            };
+            histories.press(&[at as u32], &[squeeze], &mut pressed);
+        } else {
+            histories.forget(at);
+        }
+        let (push, losses) = self
+            .law
+            .push(&meeting, &pressed[0], &patch.push, &mut patch.memory);
+        patch.push = push;
+        patch.point = point;
+        patch.normal = normal;
+        losses
+    }
+}
+
+/// Touch of each patch: a contact keeps its patch while its normal turns little, a new one takes a free patch.
+fn assign<M, const K: usize>(
+    touches: &[Touch],
+    patches: &[Patch<M>],
+    to_world: impl Fn(Vector) -> Vector,
+) -> [Option<usize>; K] {
+    let mut chosen = [None; K];
+    let mut homeless = [false; K];
+    for (at, touch) in touches.iter().enumerate() {
+        let normal = to_world(touch.normal);
+        let likeness = |k: &usize| patches[*k].normal.dot(normal);
+        let home = (0..K)
+            .filter(|&k| {
+                chosen[k].is_none() && patches[k].push.touches() && likeness(&k) > SAME_CONTACT
+            })
+            .max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
+        match home {
+            Some(k) => chosen[k] = Some(at),
+            None => homeless[at] = true,
+        }
+    }
+    for (at, _) in homeless
+        .iter()
+        .enumerate()
+        .filter(|&(_, &homeless)| homeless)
+    {
+        let free = (0..K)
+            .find(|&k| chosen[k].is_none() && !patches[k].push.touches())
+            .or_else(|| (0..K).find(|&k| chosen[k].is_none()));
+        if let Some(k) = free {
+            chosen[k] = Some(at);
+        }
+    }
+    chosen
+}
+
+impl<C: ContactLaw, const K: usize> Family<C, K> {
+    pub(in crate::dem) fn evaluate(&mut self, situation: &Situation<C>) {
+        if let [histories] = &mut self.histories[..] {
+            situation.meet_all::<K>(
+                &self.candidates,
+                &mut self.patches,
+                &mut **histories,
+                &mut self.tallies[0],
+            );
+            return;
+        }
+        self.candidates
+            .par_chunks(CHUNK)
+            .zip(self.patches.par_chunks_mut(CHUNK * K))
+            .zip(self.histories.par_iter_mut())
+            .zip(self.tallies.par_iter_mut())
+            .for_each(|(((candidates, patches), histories), tally)| {
+                situation.meet_all::<K>(candidates, patches, &mut **histories, tally);
+            });
+    }
+
+    /// Lists the candidates anew; patches go with them.
+    pub(in crate::dem) fn relist(
+        &mut self,
+        candidates: Vec<[u32; 2]>,
+        grains: &mut Grains,
+        model: &dyn NormalModel,
+        surfaces: &[Option<u8>],
+    ) {
+        let mut patches = vec![Patch::default(); candidates.len() * K];
+        let mut from = vec![None; candidates.len() * K];
+        for (old, pair) in self.candidates.iter().enumerate() {
+            let kept = &self.patches[old * K..(old + 1) * K];
+            match candidates.binary_search(pair) {
+                Ok(new) => {
+                    patches[new * K..(new + 1) * K].copy_from_slice(kept);
+                    (0..K).for_each(|k| from[new * K + k] = Some(old * K + k));
+                }
+                Err(_) => {
+                    let work: f64 = kept.iter().map(|patch| C::work(&patch.memory)).sum();
+                    grains.plastic[pair[0] as usize] += work;
+                }
+            }
+        }
+        let materials = |at: usize| {
+            let [grain, surface] = candidates[at / K].map(|index| index as usize);
+            [grains.material(grain), surfaces[surface].unwrap_or(RIGID)]
+        };
+        self.histories = model.chunks(&self.histories, &from, CHUNK * K, &materials);
+        self.spent = self.losses();
+        self.tallies = vec![Tally::default(); candidates.len().div_ceil(CHUNK)];
+        self.start = vec![0; grains.len() + 1];
+        candidates
+            .iter()
+            .for_each(|pair| self.start[pair[0] as usize + 1] += 1);
+        (0..grains.len()).for_each(|grain| self.start[grain + 1] += self.start[grain]);
+        self.patches = patches;
+        self.candidates = candidates;
+    }
+
+    pub(in crate::dem) fn release(&mut self, surface: usize, grains: &mut Grains, softening: f64) {
+        let plastic: Vec<(usize, usize, f64)> = self
+            .all()
+            .enumerate()
+            .filter(|(_, held)| held.surface == surface)
+            .map(|(at, held)| {
+                let elastic = softening * held.elastic_energy(grains);
+                (at, held.grain, C::work(&held.patch.memory) - elastic)
+            })
+            .collect();
+        for (at, grain, lost) in plastic {
+            grains.plastic[grain] += lost;
+            self.patches[at] = Patch::default();
+            self.histories[at / (CHUNK * K)].forget(at % (CHUNK * K));
+        }
+    }
+
+    pub(in crate::dem) fn start_account(&mut self, grains: &Grains, softening: f64) {
+        let held: Vec<f64> = self
+            .all()
+            .map(|held| softening * held.elastic_energy(grains))
+            .collect();
+        for (patch, held) in self.patches.iter_mut().zip(held) {
+            let work = held - C::work(&patch.memory);
+            C::book_work(&mut patch.memory, work);
+        }
+    }
+
+    pub(in crate::dem) fn book_softening(&mut self, grains: &Grains, factor: f64) -> f64 {
+        let works: Vec<f64> = self
+            .all()
+            .map(|held| factor * held.elastic_energy(grains))
+            .collect();
+        for (patch, &work) in self.patches.iter_mut().zip(&works) {
+            C::book_work(&mut patch.memory, work);
+        }
+        works.iter().sum()
+    }
+
+    pub(in crate::dem) fn same(&self, other: &Self) -> bool {
+        let histories = self
+            .histories
+            .iter()
+            .zip(&other.histories)
+            .all(|(a, b)| a.same(&**b));
+        histories && self.candidates == other.candidates && self.patches == other.patches
+    }
+
+    pub(in crate::dem) fn losses(&self) -> Losses {
+        let mut sum = self.spent;
+        self.tallies.iter().for_each(|tally| sum += tally.losses);
+        sum
+    }
+
+    #[inline(always)]
+    pub(in crate::dem) fn of(&self, grain: usize) -> &[Patch<C::Memory>] {
+        &self.patches[self.start[grain] as usize * K..self.start[grain + 1] as usize * K]
+    }
+
+    pub(in crate::dem) fn all(&self) -> impl Iterator<Item = Held<'_, C::Memory>> {
+        self.patches.iter().enumerate().map(|(at, patch)| {
+            let [grain, surface] = self.candidates[at / K].map(|index| index as usize);
+            let history = (&*self.histories[at / (CHUNK * K)], at % (CHUNK * K));
+            Held {
+                grain,
+                surface,
+                patch,
+                history,
+            }
+        })
+    }
+
+    /// Touching points left out for want of room since the last listing.
+    pub(in crate::dem) fn left_out(&self) -> u32 {
+        self.tallies.iter().map(|tally| tally.left_out).sum()
+    }
+}

@@ -1,0 +1,339 @@
+//! Mixture: normal laws of a bed of several materials, each contact two flattening laws in series.
+
+use super::normal::{Histories, NormalModel, Squeeze, UNLOADING_PROBE};
+use super::sides::{Empty, Flattened};
+use crate::Result;
+use crate::contact::pair::{Pressed, balance, in_series};
+use crate::law::AnyLaw;
+use crate::material::Material;
+use crate::tape::{Keep, Tape, keep_fields};
+use std::any::Any;
+use std::sync::Arc;
+
+/// Material of a body that does not flatten.
+pub const RIGID: u8 = u8::MAX;
+/// Most materials of a mixture.
+pub const MOST_MATERIALS: usize = RIGID as usize;
+
+/// Laws of several materials; serves contacts between grains and of grains with bodies.
+///
+/// Materials are counted from 0 as given; a grain has its own in [`crate::dem::grains::Grains::materials`], a body in
+/// [`crate::dem::bodies::machine::Machine::materials`]. How two laws share a contact: [`crate::contact::pair`].
+#[derive(Clone)]
+pub struct Mixture {
+    kinds: Arc<[Kind]>,
+}
+
+/// One material.
+struct Kind {
+    /// Its law, without contacts.
+    law: Box<dyn Flattened>,
+    /// Contact modulus E*, Pa.
+    modulus: f64,
+}
+
+impl Mixture {
+    /// Laws of the materials in order, at most [`MOST_MATERIALS`].
+    ///
+    /// # Errors
+    /// Those of [`AnyLaw::visit`].
+    pub fn new<'a>(
+        materials: impl IntoIterator<Item = (&'a AnyLaw, &'a Material)>,
+    ) -> Result<Self> {
+        let kinds: Result<Vec<Kind>> = materials
+            .into_iter()
+            .take(MOST_MATERIALS)
+            .map(|(law, material)| {
+                Ok(Kind {
+                    law: law.visit(Empty)?,
+                    modulus: material.contact_modulus(),
+                })
+            })
+            .collect();
+        Ok(Self {
+            kinds: kinds?.into(),
+        })
+    }
+
+    fn modulus(&self, material: u8) -> f64 {
+        self.kinds
+            .get(material as usize)
+            .map_or(f64::INFINITY, |kind| kind.modulus)
+    }
+}
+
+/// A contact of a mixture.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+struct Contact {
+    materials: [u8; 2],
+    /// Sides among those of their materials; one and the same where both bodies are of one material.
+    sides: [u32; 2],
+    /// Share of the overlap the first side took last.
+    share: f64,
+}
+
+keep_fields!(Contact: materials, sides, share);
+
+/// Contacts of one task.
+struct Chunk {
+    mixture: Mixture,
+    /// Sides of each material.
+    flattened: Vec<Box<dyn Flattened>>,
+    contacts: Vec<Contact>,
+}
+
+/// What a contact comes down to.
+enum Bodies {
+    /// One material: each side takes half.
+    Alike,
+    /// The second does not flatten.
+    OnRigid,
+    /// Two materials.
+    Unlike,
+}
+
+impl Contact {
+    fn bodies(&self) -> Bodies {
+        match self.materials {
+            [_, RIGID] => Bodies::OnRigid,
+            [a, b] if a == b => Bodies::Alike,
+            _ => Bodies::Unlike,
+        }
+    }
+
+    /// Each flattening body with what it takes of `overlap`, and the radius against the plane it is pressed like:
+    /// material, side, flattening, radius.
+    fn loads(&self, mixture: &Mixture, squeeze: &Squeeze) -> [(usize, usize, f64, f64); 2] {
+        let [first, second] = self.materials.map(|material| mixture.modulus(material));
+        let effective = 1.0 / (1.0 / squeeze.radii[0] + 1.0 / squeeze.radii[1]);
+        let taken = self.share * squeeze.overlap;
+        [
+            (
+                self.materials[0] as usize,
+                self.sides[0] as usize,
+                taken,
+                effective * (1.0 + first / second),
+            ),
+            (
+                self.materials[1] as usize,
+                self.sides[1] as usize,
+                squeeze.overlap - taken,
+                effective * (1.0 + second / first),
+            ),
+        ]
+    }
+}
+
+impl Chunk {
+    /// Share of the first side by Hertz, with which the search of an elastic contact is over at once.
+    fn hertz_share(mixture: &Mixture, materials: [u8; 2]) -> f64 {
+        let [first, second] = materials.map(|material| mixture.modulus(material));
+        1.0 / (1.0 + first / second)
+    }
+
+    fn add(&mut self, materials: [u8; 2], old: Option<(&Chunk, usize)>) {
+        let kept = old.and_then(|(chunk, at)| Some((chunk, chunk.contacts.get(at)?)));
+        let kept = kept.filter(|(_, contact)| contact.materials == materials);
+        let mut contact = Contact {
+            materials,
+            sides: [0; 2],
+            share: kept.map_or_else(
+                || Self::hertz_share(&self.mixture, materials),
+                |(_, contact)| contact.share,
+            ),
+        };
+        for body in 0..2 {
+            let kind = materials[body] as usize;
+            if body == 1 && materials[0] == materials[1] {
+                contact.sides[1] = contact.sides[0];
+            } else if kind < self.flattened.len() {
+                let old = kept.map(|(chunk, contact)| {
+                    (&*chunk.flattened[kind], contact.sides[body] as usize)
+                });
+                contact.sides[body] = self.flattened[kind].add(old) as u32;
+            }
+        }
+        self.contacts.push(contact);
+    }
+
+    fn press_one(&mut self, at: usize, squeeze: &Squeeze) -> Pressed {
+        let bodies = self.contacts[at].bodies();
+        if matches!(bodies, Bodies::Unlike) {
+            self.find_share(at, squeeze);
+        }
+        let [first, second] = self.contacts[at].loads(&self.mixture, squeeze);
+        let side = |(kind, side, flattening, radius): (usize, usize, f64, f64)| {
+            self.flattened[kind].trial(side, flattening, radius)
+        };
+        let state = match bodies {
+            Bodies::OnRigid => side(first),
+            Bodies::Alike => {
+                let half = side(first);
+                in_series([half; 2])
+            }
+            Bodies::Unlike => in_series([side(first), side(second)]),
+        };
+        let mut remember = |(kind, side, flattening, radius): (usize, usize, f64, f64)| {
+            self.flattened[kind].remember(side, flattening, radius)
+        };
+        let mut radius = remember(first);
+        if matches!(bodies, Bodies::Unlike) {
+            radius = 0.5 * (radius + remember(second));
+        }
+        Pressed {
+            force: state.force,
+            stiffness: state.stiffness,
+            contact_radius: radius,
+            flattening: [first.2, second.2],
+        }
+    }
+
+    fn find_share(&mut self, at: usize, squeeze: &Squeeze) {
+        let contact = &self.contacts[at];
+        let [first, second] = contact.loads(&self.mixture, squeeze);
+        let (taken, _) = balance(
+            squeeze.overlap,
+            first.2,
+            |flattening| self.flattened[first.0].trial(first.1, flattening, first.3),
+            |flattening| self.flattened[second.0].trial(second.1, flattening, second.3),
+        );
+        self.contacts[at].share = taken / squeeze.overlap;
+    }
+
+    /// Bodies that flatten, each with the number of sides it stands for.
+    fn flattening(
+        &self,
+        at: usize,
+        squeeze: &Squeeze,
+    ) -> impl Iterator<Item = (f64, (usize, usize, f64, f64))> {
+        let contact = &self.contacts[at];
+        let loads = contact.loads(&self.mixture, squeeze);
+        let counts = match contact.bodies() {
+            Bodies::OnRigid => [1.0, 0.0],
+            Bodies::Alike => [2.0, 0.0],
+            Bodies::Unlike => [1.0, 1.0],
+        };
+        counts
+            .into_iter()
+            .zip(loads)
+            .filter(|(count, _)| *count > 0.0)
+    }
+
+    fn stiffness(&self, at: usize, squeeze: &Squeeze) -> f64 {
+        let compliance: f64 = self
+            .flattening(at, squeeze)
+            .map(|(count, (kind, side, flattening, radius))| {
+                count
+                    / self.flattened[kind]
+                        .trial(side, flattening, radius)
+                        .stiffness
+            })
+            .sum();
+        1.0 / compliance
+    }
+}
+
+impl Histories for Chunk {
+    fn press(&mut self, at: &[u32], squeezes: &[Squeeze], pressed: &mut [Pressed]) {
+        for ((&at, squeeze), pressed) in at.iter().zip(squeezes).zip(pressed) {
+            *pressed = self.press_one(at as usize, squeeze);
+        }
+    }
+
+    fn forget(&mut self, at: usize) {
+        let contact = &mut self.contacts[at];
+        contact.share = Self::hertz_share(&self.mixture, contact.materials);
+        for (kind, &side) in contact.materials.iter().zip(&contact.sides) {
+            if let Some(sides) = self.flattened.get_mut(*kind as usize) {
+                sides.forget(side as usize);
+            }
+        }
+    }
+
+    fn elastic_energy(&self, at: usize, squeeze: Squeeze) -> f64 {
+        self.flattening(at, &squeeze)
+            .map(|(count, (kind, side, flattening, radius))| {
+                count * self.flattened[kind].elastic_energy(side, flattening, radius)
+            })
+            .sum()
+    }
+
+    fn stiffest(&self, at: usize, squeeze: Squeeze) -> f64 {
+        let back = Squeeze {
+            overlap: squeeze.overlap * (1.0 - UNLOADING_PROBE),
+            ..squeeze
+        };
+        self.stiffness(at, &squeeze).max(self.stiffness(at, &back))
+    }
+
+    fn largest_overlap(&self, at: usize, radii: [f64; 2]) -> Option<f64> {
+        let squeeze = Squeeze {
+            overlap: 0.0,
+            radii,
+        };
+        self.flattening(at, &squeeze)
+            .map(|(count, (kind, side, _, radius))| {
+                Some(count * self.flattened[kind].largest(side, radius)?)
+            })
+            .sum()
+    }
+
+    fn save(&self, tape: &mut Tape) {
+        self.contacts.save(tape);
+        self.flattened.iter().for_each(|sides| sides.save(tape));
+    }
+
+    fn load(&mut self, tape: &mut Tape) -> Option<()> {
+        self.contacts.load(tape)?;
+        self.flattened
+            .iter_mut()
+            .try_for_each(|sides| sides.load(tape))
+    }
+
+    fn same(&self, other: &dyn Histories) -> bool {
+        other.any().downcast_ref::<Self>().is_some_and(|other| {
+            let mut sides = self.flattened.iter().zip(&other.flattened);
+            self.contacts == other.contacts && sides.all(|(a, b)| a.same(&**b))
+        })
+    }
+
+    fn any(&self) -> &dyn Any {
+        self
+    }
+}
+
+impl NormalModel for Mixture {
+    fn chunks(
+        &self,
+        old: &[Box<dyn Histories>],
+        from: &[Option<usize>],
+        chunk: usize,
+        materials: &dyn Fn(usize) -> [u8; 2],
+    ) -> Vec<Box<dyn Histories>> {
+        let old: Vec<&Chunk> = old
+            .iter()
+            .filter_map(|chunk| chunk.any().downcast_ref())
+            .collect();
+        let task = |(number, from): (usize, &[Option<usize>])| {
+            let mut task = Chunk {
+                mixture: self.clone(),
+                flattened: self.kinds.iter().map(|kind| kind.law.empty()).collect(),
+                contacts: Vec::with_capacity(from.len()),
+            };
+            for (at, from) in from.iter().enumerate() {
+                let old = from.and_then(|at| Some((*old.get(at / chunk)?, at % chunk)));
+                task.add(materials(number * chunk + at), old);
+            }
+            Box::new(task) as Box<dyn Histories>
+        };
+        from.chunks(chunk).enumerate().map(task).collect()
+    }
+
+    /// The least of all materials.
+    fn valid_to(&self) -> f64 {
+        self.kinds
+            .iter()
+            .map(|kind| kind.law.valid_to())
+            .fold(f64::INFINITY, f64::min)
+    }
+}

@@ -1,0 +1,13 @@
+//! Force of one contact on its two bodies: the normal law and the effects around it.
+
+pub mod by_material;
+pub mod damping;
+pub mod effects;
+pub mod friction;
+pub mod meeting;
+pub mod mixture;
+pub mod named;
+pub mod normal;
+pub mod rolling;
+pub(crate) mod sides;
+pub mod slider;

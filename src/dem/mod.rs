@@ -1,0 +1,8 @@
+//! Discrete elements: the engine that moves grains and bodies under contact laws; it knows no file.
+
+pub mod adapter;
+pub mod bodies;
+pub mod contacts;
+pub mod dynamics;
+pub mod force;
+pub mod grains;

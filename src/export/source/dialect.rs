@@ -1,0 +1,22 @@
+//! Dialect: what a target states in its own file, the form its code wants a law in.
+
+use crate::export::source::artifact::Artifact;
+use super::portable::Portable;
+use crate::Result;
+
+/// Files of the contact of two materials.
+pub type PairExport = fn(&Portable, &Portable) -> Result<Vec<Artifact>>;
+
+/// A form that a law can be written in.
+pub trait Dialect {
+    /// Name on the command line.
+    const NAME: &'static str;
+    /// Files of the contact of two materials; `None` where the form holds one law.
+    const PAIR: Option<PairExport>;
+
+    /// The files of a law.
+    ///
+    /// # Errors
+    /// [`crate::Error::Argument`] when the form cannot express the law.
+    fn export(law: &Portable) -> Result<Vec<Artifact>>;
+}

@@ -1,0 +1,5 @@
+//! Time steps: how long one may be, cells with steps of their own, and what is taken out when it vanishes.
+
+pub(crate) mod erosion;
+pub(crate) mod levels;
+pub mod stability;

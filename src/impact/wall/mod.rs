@@ -1,0 +1,44 @@
+//! Wall: what a run asks of its contact, and what one step of contact answers.
+
+pub mod banded;
+pub mod meridian;
+pub mod surface;
+
+use crate::space::Space;
+use crate::tape::Keep;
+
+/// Contact violation that counts as solved, in impact speeds.
+pub(in crate::impact) const CONTACT_TOLERANCE: f64 = 1e-7;
+
+/// What one step of contact did.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Touch {
+    /// Total normal impulse.
+    pub impulse: f64,
+    /// Total impulse in the direction of sliding.
+    pub tangential: f64,
+    /// Work of the impulses on the body (negative: taken out by touching points brought to rest).
+    pub work: f64,
+    /// Outermost deformed distance from the axis of a point that carries force; 0 without contact.
+    pub radius: f64,
+    /// Largest violation left, as a speed (0 where the active set closed).
+    pub residual: f64,
+}
+
+/// What a run asks of its contact with the wall.
+pub trait Wall<S: Space>: Clone + Keep {
+    /// Points that could touch within `horizon`, if nothing moves faster than `speed`, among those that a node for which
+    /// `among` holds carries; call now and then.
+    fn refresh(&mut self, u: &[S::Vector], speed: f64, horizon: f64, among: &dyn Fn(usize) -> bool);
+    /// Solve one step: `old` are the velocities before the forces, `v` the free velocities, corrected in place.
+    fn solve(
+        &mut self,
+        dt: f64,
+        u: &[S::Vector],
+        old: &[S::Vector],
+        v: &mut [S::Vector],
+        recip_mass: &[S::Vector],
+    ) -> Touch;
+    /// Deformed surface points of the meridian, pole to pole: distance from the axis and height above the wall.
+    fn outline(&self, u: &[S::Vector]) -> Vec<(f64, f64)>;
+}
