@@ -1,7 +1,8 @@
 //! Case file: what the user asks for, checked and in SI units.
 
 use crate::document::Document;
-use crate::material::{Flow, Material};
+use crate::material::Material;
+use crate::material::flow::{FlowConstants, InText, WithFlow};
 use crate::unit::{self, Angle, Density, Length, Pressure, Quantity, Velocity};
 use crate::{Error, Result};
 use serde::Deserialize;
@@ -51,14 +52,15 @@ struct ParticleTable {
 }
 
 /// Table `[material]`, in case and scene files alike.
+type MaterialTable = WithFlow<ElasticTable, InText>;
+
+/// Its constants besides those of the flow stress.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct MaterialTable {
+pub(crate) struct ElasticTable {
     pub(crate) density: Quantity<Density>,
     pub(crate) young_modulus: Quantity<Pressure>,
     pub(crate) poisson_ratio: f64,
-    pub(crate) yield_strength: Option<Quantity<Pressure>>,
-    pub(crate) hardening_modulus: Option<Quantity<Pressure>>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -135,7 +137,10 @@ impl Case {
             path: document.path().to_owned(),
             hash: document.hash(),
             radius: document.positive("particle.radius", file.particle.radius)?,
-            material: file.material.check(document)?,
+            material: {
+                let MaterialTable { others, flow } = file.material;
+                others.check(&flow, document, "material")?
+            },
             velocities: file.impact.check(document)?,
             angle: file.impact.angle(document)?,
             friction: file.wall.map_or(Ok(0.0), |wall| wall.check(document))?,
@@ -178,13 +183,14 @@ impl Case {
     }
 }
 
-impl MaterialTable {
-    pub(crate) fn check(self, document: &Document) -> Result<Material> {
-        self.check_at(document, "material")
-    }
-
+impl ElasticTable {
     /// Checks the table whose dotted key is `at`.
-    pub(crate) fn check_at(self, document: &Document, at: &str) -> Result<Material> {
+    pub(crate) fn check(
+        self,
+        flow: &FlowConstants<InText>,
+        document: &Document,
+        at: &str,
+    ) -> Result<Material> {
         let key = |name: &str| format!("{at}.{name}");
         let young_modulus = document.positive(&key("young_modulus"), self.young_modulus)?;
         Ok(Material {
@@ -196,39 +202,8 @@ impl MaterialTable {
                 |nu| (0.0..0.5).contains(&nu),
                 "must lie in [0, 0.5)",
             )?,
-            flow: self.flow(document, at, young_modulus)?,
+            flow: flow.check(document, at, young_modulus)?,
         })
-    }
-
-    fn flow(&self, document: &Document, at: &str, young_modulus: f64) -> Result<Option<Flow>> {
-        let hardening = format!("{at}.hardening_modulus");
-        let Some(yield_strength) = self.yield_strength else {
-            return match self.hardening_modulus {
-                Some(_) => Err(document.reject(
-                    &hardening,
-                    "needs a `yield_strength` beside it: without one the body is elastic",
-                )),
-                None => Ok(None),
-            };
-        };
-        let below_modulus = format!(
-            "must be positive and below young_modulus ({})",
-            unit::engineering(young_modulus, "Pa", 4)
-        );
-        let yield_strength = document.check(
-            &format!("{at}.yield_strength"),
-            yield_strength.si(),
-            |y| y > 0.0 && y < young_modulus,
-            &below_modulus,
-        )?;
-        let hardening_modulus = match self.hardening_modulus {
-            Some(h) => document.non_negative(&hardening, h)?,
-            None => 0.0,
-        };
-        Ok(Some(Flow {
-            yield_strength,
-            hardening_modulus,
-        }))
     }
 }
 

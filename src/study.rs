@@ -2,9 +2,9 @@
 
 use crate::Result;
 use crate::case::Case;
-use crate::curve::Summary;
+use crate::curve::{Summary, Tangential};
 use crate::document::Document;
-use crate::material::{Flow, Material};
+use crate::material::{Flow, Material, ReferenceUnits};
 use crate::unit::{Density, Length, Pressure, Quantity, Velocity};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
@@ -117,10 +117,7 @@ impl Study {
                 for &young_modulus in &moduli {
                     for &ratio in &ratios {
                         for &poisson_ratio in &poissons {
-                            let flow = Some(Flow {
-                                yield_strength: young_modulus / ratio,
-                                hardening_modulus: 0.0,
-                            });
+                            let flow = Some(Flow::perfectly_plastic(young_modulus / ratio));
                             let material = Material {
                                 density,
                                 young_modulus,
@@ -177,30 +174,61 @@ pub fn drawn(total: usize, count: usize) -> Vec<usize> {
         .collect()
 }
 
-/// Name of the run a case stands for: E/Y, rho V^2/E, nu and the tolerance, to nine digits.
+/// Name of the run a case stands for: flow stress with its constants, density times squared speed and Poisson's ratio in
+/// reference units (R = rho = E = 1), angle, friction and tolerance, to nine digits.
 ///
 /// Two cases with equal groups are the same run, scaled.
 #[must_use]
 pub fn group(case: &Case) -> String {
-    let m = &case.material;
-    let ratio = m.flow.map_or(0.0, |f| m.young_modulus / f.yield_strength);
-    let speed = case
-        .velocities
+    // whoever adds to a case says here whether it makes another run
+    let Case {
+        name: _,
+        path: _,
+        hash: _,
+        bed: _,
+        radius,
+        material,
+        velocities,
+        angle,
+        friction,
+        tolerance,
+    } = case;
+    let Material {
+        density,
+        young_modulus,
+        poisson_ratio,
+        flow,
+    } = material;
+    let units = ReferenceUnits::of(material, *radius);
+    let flow = flow.map_or("elastic".to_owned(), |flow| {
+        let flow = flow.in_reference(&units);
+        let constants = flow.constants().into_iter();
+        let texts = constants.map(|(constant, value)| format!("{}{value:.8e}", constant.symbol));
+        texts.collect::<Vec<_>>().join("_")
+    });
+    let speed = velocities
         .first()
-        .map_or(0.0, |v| m.density * v * v / m.young_modulus);
+        .map_or(0.0, |v| density * v * v / young_modulus);
     format!(
-        "EY{ratio:.8e}_rhoV2E{speed:.8e}_nu{}_tol{}",
-        m.poisson_ratio, case.tolerance
+        "{flow}_rhoV2E{speed:.8e}_nu{poisson_ratio}_angle{angle:.8e}_mu{friction}_tol{tolerance}"
     )
 }
 
-/// Figures of one run seen as another case of the same group: lengths scale with R, forces with E R^2, times with R/c0.
+/// Figures of one run, made in the units `from`, seen as another case of the same group: lengths scale with R, forces with
+/// E R^2, times with R/c0.
 #[must_use]
-pub fn scaled(summary: &Summary, from: &Case, to: &Case) -> Summary {
-    let length = to.radius / from.radius;
-    let force = to.material.young_modulus / from.material.young_modulus * length * length;
-    let speed = |c: &Case| (c.material.young_modulus / c.material.density).sqrt();
-    let time = length * speed(from) / speed(to);
+pub fn scaled(summary: &Summary, from: &ReferenceUnits, to: &Case) -> Summary {
+    let units = ReferenceUnits::of(&to.material, to.radius);
+    let length = units.length / from.length;
+    let force = units.stress / from.stress * length * length;
+    let time = length * from.speed() / units.speed();
+    let velocity = units.speed() / from.speed();
+    let tangential = summary.tangential.map(|t| Tangential {
+        incident_velocity_m_s: t.incident_velocity_m_s * velocity,
+        velocity_m_s: t.velocity_m_s * velocity,
+        angular_velocity_rad_s: t.angular_velocity_rad_s / time,
+        ..t
+    });
     Summary {
         velocity_m_s: to
             .velocities
@@ -212,6 +240,7 @@ pub fn scaled(summary: &Summary, from: &Case, to: &Case) -> Summary {
         max_centre_displacement_m: summary.max_centre_displacement_m * length,
         residual_displacement_m: summary.residual_displacement_m * length,
         contact_time_s: summary.contact_time_s * time,
+        tangential,
         ..summary.clone()
     }
 }
@@ -219,6 +248,7 @@ pub fn scaled(summary: &Summary, from: &Case, to: &Case) -> Summary {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::material::flow::LinearHardening;
 
     const TEXT: &str = r#"
 [particle]
@@ -260,6 +290,42 @@ tolerance = 0.02
         assert_eq!((a.material.density, b.material.density), (1000.0, 4000.0));
         assert_eq!(group(a), group(b));
         assert_ne!(group(a), group(&study.cases[0]));
+    }
+
+    #[test]
+    fn every_dimensionless_group_makes_another_run() {
+        let study = Study::from_document(&Document::new(Path::new("s.toml"), TEXT)).unwrap();
+        let case = &study.cases[0];
+        let with = |change: fn(&mut Case)| {
+            let mut other = case.clone();
+            change(&mut other);
+            group(&other)
+        };
+        let hardening = |case: &mut Case| {
+            let strength = case.material.flow.unwrap().yield_strength();
+            let modulus = 1e6;
+            case.material.flow = Some(LinearHardening { strength, modulus }.into());
+        };
+        let all = [
+            group(case),
+            with(|case| case.material.flow = None),
+            with(|case| case.material.flow = Some(Flow::perfectly_plastic(1e6))),
+            with(hardening),
+            with(|case| case.material.poisson_ratio = 0.3),
+            with(|case| case.velocities = vec![11.0]),
+            with(|case| case.angle = 0.1),
+            with(|case| case.friction = 0.1),
+            with(|case| case.tolerance = 0.05),
+        ];
+        for (k, group) in all.iter().enumerate() {
+            assert!(!all[..k].contains(group), "{group}");
+        }
+        let larger = |case: &mut Case| {
+            case.radius *= 4.0;
+            case.material.density *= 4.0;
+            case.velocities[0] /= 2.0;
+        };
+        assert_eq!(with(larger), all[0]);
     }
 
     #[test]

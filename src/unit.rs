@@ -66,6 +66,12 @@ dimensions! {
     Energy, "an energy", "2 uJ", si::Energy;
     /// s.
     Time, "a time", "20 ms", si::Time;
+    /// 1/s.
+    StrainRate, "a strain rate", "40 1/s", si::Frequency;
+    /// K.
+    Temperature, "a temperature", "293 K", si::ThermodynamicTemperature;
+    /// J/(kg K).
+    SpecificHeat, "a specific heat", "450 J/(kg K)", si::SpecificHeatCapacity;
 }
 
 /// Text that is not a quantity of the dimension asked for.
@@ -122,10 +128,13 @@ fn uom_spelling(text: &str) -> String {
         .replace('2', "²")
         .replace('3', "³")
         .replace("deg/", "°/")
-        .replace("N m", "N · m");
-    if unit == "deg" {
-        unit = "°".to_owned();
-    }
+        .replace("N m", "N · m")
+        .replace("kg K", "kg · K");
+    unit = match unit.as_str() {
+        "deg" => "°".to_owned(),
+        "1/s" => "Hz".to_owned(),
+        _ => unit,
+    };
     if let Some(rest) = unit.strip_prefix('u').filter(|rest| !rest.is_empty()) {
         unit = format!("µ{rest}");
     }
@@ -317,6 +326,9 @@ mod tests {
         accepted::<Pressure>();
         accepted::<Force>();
         accepted::<Time>();
+        accepted::<StrainRate>();
+        accepted::<Temperature>();
+        accepted::<SpecificHeat>();
     }
 
     #[test]

@@ -14,10 +14,7 @@ pub const MATERIAL: Material = Material {
     density: 2500.0,
     young_modulus: 5e7,
     poisson_ratio: 0.3,
-    flow: Some(Flow {
-        yield_strength: 1e6,
-        hardening_modulus: 0.0,
-    }),
+    flow: Some(Flow::perfectly_plastic(1e6)),
 };
 
 const PLACES: &[u8] = include_bytes!("../data/packing.bin");

@@ -1,6 +1,8 @@
 //! Tests of case files: what is accepted, and what an error says.
 
 use super::*;
+use crate::material::Flow;
+use crate::material::flow::LinearHardening;
 
 const GOOD: &str = r#"
 [particle]
@@ -30,7 +32,9 @@ fn a_good_case_is_in_si_and_ascending() {
     assert_eq!(case.name, "c");
     assert_eq!(case.radius, 250e-6);
     assert_eq!(case.material.young_modulus, 100e9);
-    assert_eq!(case.material.flow.unwrap().hardening_modulus, 2e9);
+    let (strength, modulus) = (1.25e9, 2e9);
+    let hardening = LinearHardening { strength, modulus };
+    assert_eq!(case.material.flow, Some(hardening.into()));
     assert_eq!(case.velocities, [10.0, 50.0]);
     assert_eq!(case.hash.len(), 64);
 }
@@ -133,4 +137,29 @@ fn the_command_line_replaces_the_speeds() {
         let text = with(bad).unwrap_err().to_string();
         assert!(text.starts_with("--velocity: found"), "{text}");
     }
+}
+
+#[test]
+fn an_unknown_key_of_the_material_is_told_the_constants_of_every_flow_stress() {
+    let text = GOOD.replace("hardening_modulus", "hardening_modulos");
+    let text = Case::parse(&text, Path::new("c.toml"))
+        .unwrap_err()
+        .to_string();
+    assert!(
+        text.starts_with("c.toml: `material.hardening_modulos`: unknown field"),
+        "{text}"
+    );
+    for key in ["density", "yield_strength", "hardening_modulus"] {
+        assert!(text.contains(&format!("`{key}`")), "{text}");
+    }
+    let text = error("yield_strength = \"1.25 GPa\"", "yield_strength = 1.25e9");
+    assert!(text.contains("`material.yield_strength`"), "{text}");
+    assert!(text.contains("a pressure with its unit"), "{text}");
+}
+
+#[test]
+fn a_hardening_modulus_of_zero_is_perfect_plasticity() {
+    let text = GOOD.replace("\"2 GPa\"", "\"0 Pa\"");
+    let case = Case::parse(&text, Path::new("c")).unwrap();
+    assert_eq!(case.material.flow, Some(Flow::perfectly_plastic(1.25e9)));
 }

@@ -145,12 +145,12 @@ fn table(file: &LawFile, target: &Path) -> String {
 fn push_inertia(text: &mut String, file: &LawFile) {
     let closed_form = file.closed_form.as_ref().map(|t| t.inertia);
     let spline = file.spline.as_ref().map(|t| t.inertia);
-    let material = &file.material;
+    let material = file.material();
     for (form, coefficient) in [("closed form", closed_form), ("spline", spline)] {
-        let (Some(coefficient), Some(strength)) = (coefficient, material.yield_strength_pa) else {
+        let (Some(coefficient), Some(flow)) = (coefficient, material.flow) else {
             continue;
         };
-        let group = material.density_kg_m3 * file.valid.velocity_max_m_s.powi(2) / strength;
+        let group = material.density * file.valid.velocity_max_m_s.powi(2) / flow.yield_strength();
         let line = match coefficient {
             Some(kappa) => format!("{form:12} inertia {kappa:.2}\n"),
             None => format!(

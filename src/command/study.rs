@@ -7,13 +7,15 @@ use crate::case::Case;
 use crate::curve::{Impact, Status, Summary};
 use crate::files::{write_atomic, write_rows};
 use crate::impact::{simulate, simulate_kept};
+use crate::material::ReferenceUnits;
+use crate::material::flow::{InSi, Spelling};
 use crate::plan::{plan, severity, with_cells};
 use crate::study::{Study, drawn, group, scaled};
 use crate::tape::Checkpoint;
-use crate::{Error, Result};
+use crate::{Error, PROGRAM, Result};
 use clap::Args;
 use rayon::prelude::*;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -49,7 +51,7 @@ impl Command for StudyArgs {
             .enumerate()
             .map(|(i, case)| {
                 let (first, summary) = &runs[&group(case)];
-                (i, scaled(summary, &study.cases[*first], case))
+                (i, scaled(summary, &units(&study.cases[*first]), case))
             })
             .collect();
         let path = out.join("results.csv");
@@ -164,7 +166,7 @@ impl Refined {
         let worst = force.abs().max(displacement.abs()).max(restitution.abs());
         let both_ok = planned.status == Status::Ok && fine.status == Status::Ok;
         Refined {
-            young_over_yield: m.flow.map_or(0.0, |f| m.young_modulus / f.yield_strength),
+            young_over_yield: m.flow.map_or(0.0, |f| m.young_modulus / f.yield_strength()),
             severity,
             max_force_change: force,
             max_displacement_change: displacement,
@@ -187,6 +189,61 @@ impl Refined {
 /// $\rho V^2/Y$ of a case of a study.
 fn severity_of(case: &Case) -> f64 {
     severity(&case.material, case.velocities[0])
+}
+
+/// What a finished run in a study's folder is: its group, the program that made it, and the units of its figures.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct KeptRun {
+    program: String,
+    group: String,
+    radius_m: f64,
+    density_kg_m3: f64,
+    #[serde(rename = "young_modulus_Pa")]
+    young_modulus_pa: f64,
+}
+
+impl KeptRun {
+    /// Its file, written last: where it stands the others are whole.
+    const FILE: &str = "run.json";
+
+    fn of(case: &Case, group: &str) -> Self {
+        let units = units(case);
+        KeptRun {
+            program: PROGRAM.to_owned(),
+            group: group.to_owned(),
+            radius_m: units.length,
+            density_kg_m3: units.density,
+            young_modulus_pa: units.stress,
+        }
+    }
+
+    /// The finished run of a group in `folder`; none where there is nothing, or something of another program.
+    fn find(folder: &Path, group: &str) -> Option<Self> {
+        let bytes = std::fs::read(folder.join(Self::FILE)).ok()?;
+        let kept: KeptRun = serde_json::from_slice(&bytes).ok()?;
+        (kept.program == PROGRAM && kept.group == group).then_some(kept)
+    }
+
+    fn write(&self, folder: &Path) -> Result<()> {
+        let path = folder.join(Self::FILE);
+        let text = serde_json::to_string_pretty(self);
+        let text = text.map_err(|e| Error::file("write", &path)(e.into()))?;
+        write_atomic(&path, format!("{text}\n").as_bytes())
+    }
+
+    fn units(&self) -> ReferenceUnits {
+        ReferenceUnits {
+            length: self.radius_m,
+            density: self.density_kg_m3,
+            stress: self.young_modulus_pa,
+        }
+    }
+}
+
+/// Units of the figures of a case.
+fn units(case: &Case) -> ReferenceUnits {
+    ReferenceUnits::of(&case.material, case.radius)
 }
 
 /// Figures of every group, by its name, with the number of the case that stands for it; finished ones are read.
@@ -213,14 +270,15 @@ fn runs(study: &Study, out: &Path, context: &Context) -> Result<Runs> {
         .with_max_len(1)
         .map(|&(_, name, i)| {
             let folder: PathBuf = out.join("runs").join(name);
-            let summary = if folder.join("summary.json").is_file() {
-                Impact::read(&folder)?.summary
+            let case = &study.cases[i];
+            let summary = if let Some(kept) = KeptRun::find(&folder, name) {
+                scaled(&Impact::read(&folder)?.summary, &kept.units(), case)
             } else {
-                let case = &study.cases[i];
                 let plan = plan(case, case.velocities[0]);
                 let checkpoint = Checkpoint::new(&folder.join(CHECKPOINT_FILE), CHECKPOINT);
                 let simulated = simulate_kept(&case.material, case.radius, &plan, &checkpoint);
                 simulated.impact.write(&folder, &provenance)?;
+                KeptRun::of(case, name).write(&folder)?;
                 simulated.impact.summary
             };
             bar.inc(1);
@@ -242,20 +300,25 @@ fn table(
     for (k, (i, summary)) in rows.iter().enumerate() {
         let case = &study.cases[*i];
         let m = &case.material;
-        let strength = m.flow.map_or(f64::INFINITY, |f| f.yield_strength);
+        let flow = m.flow.map_or_else(Vec::new, |flow| flow.constants());
         let figures = figures(summary).map_err(|e| Error::file("write", path)(e.into()))?;
         if k == 0 {
             let keys: Vec<&str> = figures.iter().map(|(key, _)| key.as_str()).collect();
+            let names = flow.iter().map(|(c, _)| InSi::key(c) + ",");
             text += &format!(
-                "density_kg_m3,young_modulus_Pa,yield_strength_Pa,poisson_ratio,radius_m,{}\n",
+                "density_kg_m3,young_modulus_Pa,{}poisson_ratio,radius_m,{}\n",
+                names.collect::<String>(),
                 keys.join(",")
             );
         }
         let values: Vec<&str> = figures.iter().map(|(_, value)| value.as_str()).collect();
         text += &format!(
-            "{},{},{strength},{},{},{}\n",
+            "{},{},{}{},{},{}\n",
             m.density,
             m.young_modulus,
+            flow.iter()
+                .map(|(_, value)| format!("{value},"))
+                .collect::<String>(),
             m.poisson_ratio,
             case.radius,
             values.join(",")

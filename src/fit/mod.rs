@@ -82,8 +82,17 @@ pub struct Fit {
 /// error by [`INERTIA_GAIN`]. A single speed cannot tell inertia from hardness and gets none.
 ///
 /// # Errors
-/// [`Error::Fit`] when no impact rebounded, an impact's data make no sense, or no admissible law is found.
+/// [`Error::Fit`] when no impact rebounded, the flow stress depends on the size, an impact's data make no sense, or no admissible law is found.
 pub fn fit(case: &Case, impacts: &[Impact]) -> Result<Fit> {
+    let constants = case.material.flow.map_or_else(Vec::new, |f| f.constants());
+    if let Some((constant, _)) = constants.iter().find(|(c, _)| c.dimension.has_time()) {
+        return Err(Error::Fit {
+            reason: format!(
+                "the {} makes impacts of other radii differ, and a law F = R^2 phi(delta/R) is one for all of them",
+                constant.name()
+            ),
+        });
+    }
     let rebounded = |i: &&Impact| i.summary.status == Status::Ok;
     let used: Vec<&Impact> = impacts.iter().filter(rebounded).collect();
     let speed = |i: &Impact| i.summary.velocity_m_s;

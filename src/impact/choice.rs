@@ -9,8 +9,7 @@ use crate::impact::updated::Updated;
 use crate::impact::wall::CONTACT_TOLERANCE;
 use crate::impact::wall::meridian::Wall;
 use crate::impact::wall::surface::{Coulomb, Frictionless, MEMORY};
-use crate::material::Flow;
-use crate::material::flow::{FlowStress, LinearHardening, PerfectlyPlastic};
+use crate::material::flow::{FlowStress, FlowVisitor};
 use crate::material::stress::{Constitutive, J2, Moduli};
 use crate::plan::{Geometry, Plan};
 use crate::scheme::{Reference, Transfer};
@@ -34,22 +33,19 @@ impl Job<'_> {
     }
 }
 
-/// The flow stress that the material calls for.
-pub(in crate::impact) fn run_plastic(
-    moduli: Moduli,
-    flow: &Flow,
-    unit: f64,
-    job: &Job,
-) -> Vec<Record> {
-    fn with<F: FlowStress>(moduli: Moduli, flow: F, job: &Job) -> Vec<Record> {
-        run_geometry(J2 { moduli, flow }, job)
-    }
-    let strength = flow.yield_strength / unit;
-    if flow.hardening_modulus > 0.0 {
-        let modulus = flow.hardening_modulus / unit;
-        with(moduli, LinearHardening { strength, modulus }, job)
-    } else {
-        with(moduli, PerfectlyPlastic { strength }, job)
+/// A plastic body, once its flow stress is known.
+pub(in crate::impact) struct Plastic<'a> {
+    /// Moduli.
+    pub moduli: Moduli,
+    /// What is to be run.
+    pub job: &'a Job<'a>,
+}
+
+impl FlowVisitor for Plastic<'_> {
+    type Output = Vec<Record>;
+    fn visit<F: FlowStress>(self, flow: F) -> Vec<Record> {
+        let moduli = self.moduli;
+        run_geometry(J2 { moduli, flow }, self.job)
     }
 }
 

@@ -14,11 +14,11 @@ mod run;
 pub mod updated;
 pub mod wall;
 
-use self::choice::Job;
+use self::choice::{Job, Plastic};
 use self::run::record::Record;
 use crate::curve::{Impact, ParticleMap, Status};
-use crate::material::Material;
 use crate::material::stress::{Elastic, Moduli};
+use crate::material::{Material, ReferenceUnits};
 use crate::plan::Plan;
 use crate::scheme::Scheme;
 use crate::tape::Checkpoint;
@@ -79,17 +79,28 @@ pub fn simulate_repeated(
 }
 
 /// Run the impacts of a plan with the material it calls for.
-fn attempt(material: &Material, plan: &Plan, checkpoint: Option<&Checkpoint>) -> Vec<Record> {
+fn attempt(
+    material: &Material,
+    radius: f64,
+    plan: &Plan,
+    checkpoint: Option<&Checkpoint>,
+) -> Vec<Record> {
+    let units = ReferenceUnits::of(material, radius);
     let moduli = Moduli::new(1.0, material.poisson_ratio);
-    let job = Job {
+    let job = &Job {
         plan,
-        speed: plan.velocity / (material.young_modulus / material.density).sqrt(),
-        checkpoint: checkpoint.map(|c| (c, format!("{material:?} {plan:?}"))),
+        speed: plan.velocity / units.speed(),
+        checkpoint: checkpoint.map(|c| (c, description(material, radius, plan))),
     };
     match material.flow.filter(|_| plan.plastic) {
-        None => choice::run_geometry(Elastic { moduli }, &job),
-        Some(flow) => choice::run_plastic(moduli, &flow, material.young_modulus, &job),
+        None => choice::run_geometry(Elastic { moduli }, job),
+        Some(flow) => flow.in_reference(&units).visit(Plastic { moduli, job }),
     }
+}
+
+/// What tells a run from others: a flow stress that knows seconds runs differently in another size.
+fn description(material: &Material, radius: f64, plan: &Plan) -> String {
+    format!("{material:?} R = {radius:?} m {plan:?}")
 }
 
 /// Why the last impact failed, if it did.
@@ -113,12 +124,12 @@ fn simulated(
     checkpoint: Option<&Checkpoint>,
 ) -> Vec<Simulated> {
     let started = std::time::Instant::now();
-    let mut records = attempt(material, plan, checkpoint);
+    let mut records = attempt(material, radius, plan, checkpoint);
     if let Some(reason) = failure(&records).filter(|_| plan.scheme == Scheme::default()) {
         tracing::warn!("{reason}; tried again with half the time step");
         let mut careful = plan.clone();
         careful.grid.dt_share *= 0.5;
-        let again = attempt(material, &careful, checkpoint);
+        let again = attempt(material, radius, &careful, checkpoint);
         // of two that did not end well the first tells more
         if again.last().is_some_and(|r| r.status == Status::Ok) {
             records = again;
@@ -136,4 +147,31 @@ fn simulated(
         }
     };
     records.into_iter().map(finished).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::Case;
+
+    #[test]
+    fn a_checkpoint_is_of_one_material_radius_and_plan() {
+        let text = "[particle]\nradius = \"1 mm\"\n[material]\ndensity = \"1000 kg/m3\"\nyoung_modulus = \"1 GPa\"\n\
+            poisson_ratio = 0.35\nyield_strength = \"3 MPa\"\n[impact]\nvelocities = [\"5 m/s\"]\n[accuracy]\ntolerance = 0.02\n";
+        let case = Case::parse(text, "c.toml".as_ref()).unwrap();
+        let plan = |velocity| crate::plan::plan(&case, velocity);
+        let harder = Material {
+            flow: Some(crate::material::Flow::perfectly_plastic(4e6)),
+            ..case.material
+        };
+        let all = [
+            description(&case.material, 1e-3, &plan(5.0)),
+            description(&case.material, 2e-3, &plan(5.0)),
+            description(&case.material, 1e-3, &plan(6.0)),
+            description(&harder, 1e-3, &plan(5.0)),
+        ];
+        for (k, one) in all.iter().enumerate() {
+            assert!(!all[..k].contains(one), "{one}");
+        }
+    }
 }

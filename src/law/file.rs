@@ -12,7 +12,7 @@ use crate::contact::loading::{Loading, SoftenedHertz};
 use crate::contact::spline::{Knot, SplineLoading};
 use crate::contact::unloading::Unloading;
 use crate::document::Document;
-use crate::material::{Flow, Material};
+use crate::material::Material;
 use crate::theory::hertz::Hertz;
 use crate::{Error, Result};
 use serde::{Deserialize, Serialize};
@@ -155,13 +155,7 @@ impl LawFile {
             ratio,
             "must lie in [0, 0.5)",
         )?;
-        if let Some(y) = m.yield_strength_pa {
-            document.check("material.yield_strength_Pa", y, positive, must)?;
-        }
-        if let Some(h) = m.hardening_modulus_pa {
-            let must = "must be finite and not negative";
-            document.check("material.hardening_modulus_Pa", h, |x| x >= 0.0, must)?;
-        }
+        m.flow.check(document, "material", m.young_modulus_pa)?;
         let v = &self.valid;
         let key = "valid.displacement_over_radius_max";
         document.check(key, v.displacement_over_radius_max, positive, must)?;
@@ -223,10 +217,7 @@ impl LawFile {
             density: m.density_kg_m3,
             young_modulus: m.young_modulus_pa,
             poisson_ratio: m.poisson_ratio,
-            flow: m.yield_strength_pa.map(|yield_strength| Flow {
-                yield_strength,
-                hardening_modulus: m.hardening_modulus_pa.unwrap_or(0.0),
-            }),
+            flow: m.flow.checked(),
         }
     }
 

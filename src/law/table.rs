@@ -2,11 +2,12 @@
 
 use crate::fit::confidence::LeftOut;
 use crate::fit::quality::Quality;
+use crate::material::flow::{FlowConstants, InSi, WithFlow};
 use serde::{Deserialize, Serialize};
 
 /// `[material]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(from = "WithFlow<ElasticTable, InSi>")]
 pub struct MaterialTable {
     /// rho.
     pub density_kg_m3: f64,
@@ -15,15 +16,31 @@ pub struct MaterialTable {
     pub young_modulus_pa: f64,
     /// nu.
     pub poisson_ratio: f64,
-    /// Y; absent for an elastic body.
-    #[serde(rename = "yield_strength_Pa", skip_serializing_if = "Option::is_none")]
-    pub yield_strength_pa: Option<f64>,
-    /// H; absent for an elastic body.
-    #[serde(
-        rename = "hardening_modulus_Pa",
-        skip_serializing_if = "Option::is_none"
-    )]
-    pub hardening_modulus_pa: Option<f64>,
+    /// Constants of the flow stress; none for an elastic body.
+    #[serde(flatten)]
+    pub flow: FlowConstants<InSi>,
+}
+
+/// The keys of `[material]` besides the constants of the flow stress.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ElasticTable {
+    density_kg_m3: f64,
+    #[serde(rename = "young_modulus_Pa")]
+    young_modulus_pa: f64,
+    poisson_ratio: f64,
+}
+
+impl From<WithFlow<ElasticTable, InSi>> for MaterialTable {
+    fn from(table: WithFlow<ElasticTable, InSi>) -> Self {
+        let WithFlow { others, flow } = table;
+        MaterialTable {
+            density_kg_m3: others.density_kg_m3,
+            young_modulus_pa: others.young_modulus_pa,
+            poisson_ratio: others.poisson_ratio,
+            flow,
+        }
+    }
 }
 
 /// `[yield_point]`: the units of the constants.

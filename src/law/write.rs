@@ -14,6 +14,7 @@ use crate::contact::unloading::Unloading;
 use crate::files::write_atomic;
 use crate::fit::quality::Quality;
 use crate::fit::{Fit, FittedForm, Outcome, THRESHOLD};
+use crate::material::flow::FlowConstants;
 use crate::material::{Material, YIELD_PRESSURE_RATIO};
 use std::path::Path;
 
@@ -146,8 +147,7 @@ fn material_table(material: &Material) -> MaterialTable {
         density_kg_m3: material.density,
         young_modulus_pa: material.young_modulus,
         poisson_ratio: material.poisson_ratio,
-        yield_strength_pa: material.flow.map(|f| f.yield_strength),
-        hardening_modulus_pa: material.flow.map(|f| f.hardening_modulus),
+        flow: FlowConstants::of(material.flow.as_ref()),
     }
 }
 

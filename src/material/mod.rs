@@ -1,22 +1,18 @@
 //! Material of a particle: elastic constants, flow stress, and the yield quantities that follow from them.
 
+pub mod constant;
 pub mod flow;
+pub mod reference;
 pub mod stress;
+
+pub use flow::Flow;
+pub use reference::ReferenceUnits;
 
 use std::f64::consts::PI;
 use stress::Moduli;
 
 /// Peak Hertz pressure at first yield over the yield strength (Johnson 1985, section 6.3).
 pub const YIELD_PRESSURE_RATIO: f64 = 1.6;
-
-/// Flow stress of a J2 material: $\sigma_y(\varepsilon_p) = Y + H \varepsilon_p$.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Flow {
-    /// Initial yield strength Y, Pa.
-    pub yield_strength: f64,
-    /// Linear hardening modulus H, Pa (0: perfectly plastic).
-    pub hardening_modulus: f64,
-}
 
 /// Material of a particle, SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -69,7 +65,7 @@ impl Material {
     /// `None` for an elastic body. Source: Johnson 1985, section 6.3; thesis (4-10), (4-11).
     #[must_use]
     pub fn yield_point(&self, radius: f64, pressure_ratio: f64) -> Option<YieldPoint> {
-        let p_0 = pressure_ratio * self.flow?.yield_strength;
+        let p_0 = pressure_ratio * self.flow?.yield_strength();
         let e_star = self.contact_modulus();
         let delta_y = (PI * p_0 / (2.0 * e_star)).powi(2) * radius;
         let f_y = PI.powi(3) * p_0.powi(3) * radius * radius / (6.0 * e_star * e_star);

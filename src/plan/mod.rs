@@ -4,7 +4,8 @@
 //! the whole run depends on (E/Y, rho V^2/E, nu) alone.
 
 use crate::case::Case;
-use crate::material::{Material, YIELD_PRESSURE_RATIO};
+use crate::material::flow::YIELD_STRENGTH;
+use crate::material::{Flow, Material, YIELD_PRESSURE_RATIO};
 use crate::scheme::Scheme;
 use crate::unit::{engineering, significant};
 use std::f64::consts::PI;
@@ -102,7 +103,7 @@ pub fn estimate(material: &Material, velocity: f64) -> Estimate {
     let mass = 4.0 / 3.0 * PI;
     let elastic = (15.0 * mass * speed * speed / (16.0 * e_star)).powf(0.4);
     let plastic = material.flow.map_or(0.0, |flow| {
-        speed * (mass / (2.0 * PI * PLASTIC_PRESSURE_RATIO * flow.yield_strength / e)).sqrt()
+        speed * (mass / (2.0 * PI * PLASTIC_PRESSURE_RATIO * flow.yield_strength() / e)).sqrt()
     });
     let sum = elastic.powi(3) + plastic.powi(3);
     let displacement = sum.cbrt();
@@ -234,7 +235,7 @@ const LARGE_FROM: f64 = 0.1;
 #[must_use]
 pub fn severity(material: &Material, velocity: f64) -> f64 {
     let pressure = material.density * velocity * velocity;
-    material.flow.map_or(0.0, |f| pressure / f.yield_strength)
+    material.flow.map_or(0.0, |f| pressure / f.yield_strength())
 }
 
 /// Which effects the scene calls for.
@@ -255,10 +256,9 @@ fn effects(case: &Case, velocity: f64) -> (Vec<Effect>, bool) {
             ),
         ),
     };
-    let hardening = case.material.flow.map_or(0.0, |f| f.hardening_modulus);
     let solid = geometry(case) != Geometry::Axisymmetric;
     let severity = severity(&case.material, velocity);
-    let list = vec![
+    let mut list = vec![
         Effect {
             name: "three dimensions",
             on: solid,
@@ -290,15 +290,9 @@ fn effects(case: &Case, velocity: f64) -> (Vec<Effect>, bool) {
             on: plastic,
             reason: why,
         },
-        Effect {
-            name: "hardening",
-            on: plastic && hardening > 0.0,
-            reason: if hardening > 0.0 {
-                format!("H = {hardening:.4e} Pa")
-            } else {
-                "no hardening modulus given".to_owned()
-            },
-        },
+    ];
+    list.extend(flow_effects(case.material.flow, plastic));
+    list.extend([
         Effect {
             name: "large deformation",
             on: severity > LARGE_FROM,
@@ -312,8 +306,37 @@ fn effects(case: &Case, velocity: f64) -> (Vec<Effect>, bool) {
             on: false,
             reason: "the impact is over long before gravity moves the particle".to_owned(),
         },
-    ];
+    ]);
     (list, plastic)
+}
+
+/// Effects on the flow stress besides yielding, of every kind there is: on where the material has their constants.
+fn flow_effects(flow: Option<Flow>, plastic: bool) -> Vec<Effect> {
+    let own = flow.map_or_else(Vec::new, |flow| flow.constants());
+    let mut list: Vec<Effect> = Vec::new();
+    for constant in Flow::all_constants() {
+        let name = constant.effect;
+        if name == YIELD_STRENGTH.effect || list.iter().any(|effect| effect.name == name) {
+            continue;
+        }
+        let given: Vec<String> = own
+            .iter()
+            .filter(|(c, value)| c.effect == name && *value != 0.0)
+            .map(|(c, value)| {
+                let text = format!("{} = {value:.4e} {}", c.symbol, c.dimension.unit());
+                text.trim_end().to_owned()
+            })
+            .collect();
+        list.push(Effect {
+            name,
+            on: plastic && !given.is_empty(),
+            reason: match given.is_empty() {
+                true => format!("no {} given", constant.name()),
+                false => given.join(", "),
+            },
+        });
+    }
+    list
 }
 
 /// Period of the fundamental (oblate-prolate, l = 2) vibration of a sphere, R/c0.

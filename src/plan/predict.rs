@@ -153,7 +153,7 @@ fn squeeze(plan: &Plan, material: &Material) -> f64 {
     let severity = severity(material, plan.velocity * plan.angle.cos());
     let ratio = material
         .flow
-        .map_or(1.0, |f| material.young_modulus / f.yield_strength / 160.0);
+        .map_or(1.0, |f| material.young_modulus / f.yield_strength() / 160.0);
     let soft = ratio.min(1.0).powf(0.25);
     if !plan.grid.remedies.is_large() {
         return (interpolated(severity) * soft).max(interpolated(severity).min(1.0));

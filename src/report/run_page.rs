@@ -152,37 +152,39 @@ impl RunPage<'_> {
             .map(|v| significant(*v, 4))
             .collect();
         let mut facts = vec![
-            ("Radius R", engineering(self.case.radius, "m", 4)),
-            ("Density ρ", engineering(material.density, "kg/m³", 5)),
+            ("Radius R".to_owned(), engineering(self.case.radius, "m", 4)),
             (
-                "Young’s modulus E",
+                "Density ρ".to_owned(),
+                engineering(material.density, "kg/m³", 5),
+            ),
+            (
+                "Young’s modulus E".to_owned(),
                 engineering(material.young_modulus, "Pa", 4),
             ),
-            ("Poisson’s ratio ν", significant(material.poisson_ratio, 4)),
+            (
+                "Poisson’s ratio ν".to_owned(),
+                significant(material.poisson_ratio, 4),
+            ),
         ];
         if let Some(flow) = material.flow {
-            facts.push((
-                "Yield strength Y",
-                engineering(flow.yield_strength, "Pa", 4),
-            ));
-            let hardening = match flow.hardening_modulus {
-                0.0 => "none (perfectly plastic)".to_owned(),
-                modulus => format!("linear, {}", engineering(modulus, "Pa", 4)),
-            };
-            facts.push(("Hardening", hardening));
+            facts.push(("Flow stress".to_owned(), flow.name().to_owned()));
+            for (constant, value) in flow.constants() {
+                let value = engineering(value, constant.dimension.unit(), 4);
+                facts.push((constant.title(), value));
+            }
         } else {
-            facts.push(("Yield strength Y", "none (elastic)".to_owned()));
+            facts.push(("Flow stress".to_owned(), "none (elastic)".to_owned()));
         }
-        facts.push(("Impact speeds V", format!("{} m/s", speeds.join(", "))));
+        facts.push((
+            "Impact speeds V".to_owned(),
+            format!("{} m/s", speeds.join(", ")),
+        ));
         let tolerance = format!(
             "{} % on F*, δ* and e",
             significant(100.0 * self.case.tolerance, 3)
         );
-        facts.push(("Tolerance", tolerance));
-        let facts = facts
-            .into_iter()
-            .map(|(name, value)| (name.to_owned(), value));
-        Section::new("Asked for").with(Block::Facts(facts.collect()))
+        facts.push(("Tolerance".to_owned(), tolerance));
+        Section::new("Asked for").with(Block::Facts(facts))
     }
 
     fn planned(&self) -> Section {

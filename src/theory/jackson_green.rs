@@ -58,7 +58,7 @@ impl JacksonGreen {
     #[must_use]
     pub fn of(material: &Material) -> Option<Self> {
         let c = yield_factor(material);
-        let y = material.flow?.yield_strength;
+        let y = material.flow?.yield_strength();
         let point = material.yield_point(1.0, c)?;
         Some(Self {
             elastic: Hertz::of(material),
@@ -169,7 +169,7 @@ impl Envelope for JacksonGreen {
 #[must_use]
 pub fn restitution(material: &Material, velocity: f64) -> Option<f64> {
     let point = material.yield_point(1.0, yield_factor(material))?;
-    let e_y = material.flow?.yield_strength / material.contact_modulus();
+    let e_y = material.flow?.yield_strength() / material.contact_modulus();
     let v = velocity / point.velocity;
     if v <= 1.0 {
         Some(1.0)

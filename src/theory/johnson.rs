@@ -37,7 +37,7 @@ impl Johnson {
     /// Law of a material; `None` for an elastic body.
     #[must_use]
     pub fn of(material: &Material) -> Option<Self> {
-        let p_d = PLASTIC_PRESSURE_RATIO * material.flow?.yield_strength;
+        let p_d = PLASTIC_PRESSURE_RATIO * material.flow?.yield_strength();
         let e_star = material.contact_modulus();
         Some(Self {
             elastic: Hertz::new(e_star),
@@ -113,7 +113,7 @@ impl Envelope for Johnson {
 /// $V_y$).
 #[must_use]
 pub fn restitution(material: &Material, velocity: f64) -> Option<f64> {
-    let y = material.flow?.yield_strength;
+    let y = material.flow?.yield_strength();
     let damage_number = material.density * velocity * velocity / y;
     let prefactor = 3.8 * (2.0 * PI / 3.0).powf(-0.125);
     let e = prefactor * damage_number.powf(-0.125) * (y / material.contact_modulus()).sqrt();

@@ -35,7 +35,7 @@ impl Springs {
     /// Springs of a material; `None` for an elastic body.
     #[must_use]
     pub fn of(material: &Material) -> Option<Self> {
-        let y = material.flow?.yield_strength;
+        let y = material.flow?.yield_strength();
         let loading = LOADING_RATIO * y;
         let speed = |damage_number: f64| (damage_number * y / material.density).sqrt();
         let reached = |velocity: f64| velocity * (material.sphere_mass(1.0) / loading).sqrt();

@@ -42,7 +42,7 @@ impl Thornton {
     #[must_use]
     pub fn of(material: &Material, pressure_ratio: f64) -> Option<Self> {
         let point = material.yield_point(1.0, pressure_ratio)?;
-        let p_y = pressure_ratio * material.flow?.yield_strength;
+        let p_y = pressure_ratio * material.flow?.yield_strength();
         Some(Self {
             elastic: Hertz::of(material),
             yield_flattening: point.displacement,
@@ -142,7 +142,7 @@ impl Envelope for Thornton {
 /// ```
 /// # use impactlaw::material::{Flow, Material};
 /// # let ball = Material { density: 8e3, young_modulus: 1e11, poisson_ratio: 0.35,
-/// #     flow: Some(Flow { yield_strength: 1.25e9, hardening_modulus: 0.0 }) };
+/// #     flow: Some(Flow::perfectly_plastic(1.25e9)) };
 /// let e = impactlaw::theory::thornton::restitution(&ball, 1.6, 10.0).unwrap();
 /// assert!((e - 0.465).abs() < 5e-4);
 /// ```

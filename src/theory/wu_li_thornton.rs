@@ -31,7 +31,7 @@ impl Published for WuLiThornton {
 /// of the paper). `None` for an elastic body and where the formula exceeds 1.
 #[must_use]
 pub fn restitution(material: &Material, velocity: f64) -> Option<f64> {
-    let stiffness = material.contact_modulus() / material.flow?.yield_strength;
+    let stiffness = material.contact_modulus() / material.flow?.yield_strength();
     let v = velocity / material.yield_point(1.0, YIELD_PRESSURE_RATIO)?.velocity;
     let e = if v < (FINITE / SMALL).powi(4) * stiffness * stiffness {
         SMALL * v.powf(-0.25)

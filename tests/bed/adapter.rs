@@ -30,10 +30,7 @@ const SOFT: Material = Material {
     density: 2500.0,
     young_modulus: 5e7,
     poisson_ratio: 0.3,
-    flow: Some(Flow {
-        yield_strength: 1e5,
-        hardening_modulus: 0.0,
-    }),
+    flow: Some(Flow::perfectly_plastic(1e5)),
 };
 
 /// Places, radii and velocities of twenty grains above the floor of a box.

@@ -17,10 +17,7 @@ pub const MATERIAL: Material = Material {
     density: 7274.0,
     young_modulus: 59.82e9,
     poisson_ratio: 0.33,
-    flow: Some(Flow {
-        yield_strength: 97.59e6,
-        hardening_modulus: 0.0,
-    }),
+    flow: Some(Flow::perfectly_plastic(97.59e6)),
 };
 
 /// Loads along Hertz, unloads along a stiffer straight line: a law with a closed form for everything.

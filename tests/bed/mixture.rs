@@ -25,10 +25,7 @@ const fn material(young_modulus: f64, poisson_ratio: f64, yield_strength: f64) -
         density: 2500.0,
         young_modulus,
         poisson_ratio,
-        flow: Some(Flow {
-            yield_strength,
-            hardening_modulus: 0.0,
-        }),
+        flow: Some(Flow::perfectly_plastic(yield_strength)),
     }
 }
 

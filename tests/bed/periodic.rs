@@ -19,10 +19,7 @@ const MATERIAL: Material = Material {
     density: 2500.0,
     young_modulus: 5e7,
     poisson_ratio: 0.3,
-    flow: Some(Flow {
-        yield_strength: 1e6,
-        hardening_modulus: 0.0,
-    }),
+    flow: Some(Flow::perfectly_plastic(1e6)),
 };
 
 type Frictional = Law<Viscous, Mindlin, ()>;

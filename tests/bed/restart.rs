@@ -28,10 +28,7 @@ fn soft() -> Material {
         density: 2500.0,
         young_modulus: 5e7,
         poisson_ratio: 0.3,
-        flow: Some(Flow {
-            yield_strength: 1e5,
-            hardening_modulus: 0.0,
-        }),
+        flow: Some(Flow::perfectly_plastic(1e5)),
     }
 }
 

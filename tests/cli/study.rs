@@ -59,6 +59,87 @@ fn equal_groups_run_once_and_a_second_call_repeats_nothing() {
     assert_eq!(first, std::fs::read_to_string(&results).unwrap());
 }
 
+/// One run of 8000 kg/m3 at 20 m/s in `folder`: F*, delta*, contact time, and the wall time that tells whether it was run again.
+fn figures(folder: &Path, radius: &str, density: &str, modulus: &str, speed: &str) -> [f64; 4] {
+    let text = STUDY
+        .replace("[\"250 um\"]", &format!("[\"{radius}\"]"))
+        .replace(
+            "[\"2000 kg/m3\", \"8000 kg/m3\"]",
+            &format!("[\"{density}\"]"),
+        )
+        .replace("[\"100 GPa\"]", &format!("[\"{modulus}\"]"))
+        .replace("[\"20 m/s\", \"40 m/s\"]", &format!("[\"{speed}\"]"));
+    std::fs::write(folder.join("s.toml"), text).unwrap();
+    assert!(study(folder).status.success());
+    let table = std::fs::read_to_string(folder.join("results/results.csv")).unwrap();
+    let rows: Vec<Vec<&str>> = table
+        .lines()
+        .filter(|l| !l.starts_with('#'))
+        .map(|l| l.split(',').collect())
+        .collect();
+    assert_eq!(rows.len(), 2);
+    [
+        "max_force_N",
+        "max_displacement_m",
+        "contact_time_s",
+        "wall_s",
+    ]
+    .map(|key| {
+        let column = rows[0].iter().position(|k| *k == key).unwrap();
+        rows[1][column].parse().unwrap()
+    })
+}
+
+#[test]
+fn kept_runs_are_shared_through_their_groups_and_scaled_by_the_file_s_own_units() {
+    let folder = tempfile::tempdir().unwrap();
+    let first = figures(folder.path(), "250 um", "8000 kg/m3", "100 GPa", "20 m/s");
+    // the same groups: four times the radius, a quarter of the density, twice the modulus
+    let speed = format!("{} m/s", 20.0 * 8f64.sqrt());
+    let scaled = figures(folder.path(), "1 mm", "2000 kg/m3", "200 GPa", &speed);
+    assert_eq!(scaled[3], first[3], "the kept run is shared");
+    for (k, factor) in [32.0, 4.0, 4.0 / 8f64.sqrt()].into_iter().enumerate() {
+        assert!((scaled[k] / first[k] / factor - 1.0).abs() < 1e-12, "{k}");
+    }
+    // a run of its own, elsewhere, gives the same
+    let alone = tempfile::tempdir().unwrap();
+    let own = figures(alone.path(), "1 mm", "2000 kg/m3", "200 GPa", &speed);
+    for k in 0..3 {
+        assert!((own[k] / scaled[k] - 1.0).abs() < 1e-9, "{k}");
+    }
+    // back again: what was kept is as it was
+    let back = figures(folder.path(), "250 um", "8000 kg/m3", "100 GPa", "20 m/s");
+    assert_eq!(back, first);
+}
+
+#[test]
+fn runs_of_another_version_are_not_taken_over() {
+    let folder = tempfile::tempdir().unwrap();
+    figures(folder.path(), "250 um", "8000 kg/m3", "100 GPa", "20 m/s");
+    let runs = folder.path().join("results/runs");
+    let run = std::fs::read_dir(&runs)
+        .unwrap()
+        .next()
+        .unwrap()
+        .unwrap()
+        .path();
+    let put = |file: &str, from: &str, to: &str| {
+        let text = std::fs::read_to_string(run.join(file)).unwrap();
+        assert!(text.contains(from), "{text}");
+        std::fs::write(run.join(file), text.replace(from, to)).unwrap();
+    };
+    let points = "\"points\": ";
+    put("summary.json", points, "\"points\": 9");
+    let again = || {
+        assert!(study(folder.path()).status.success());
+        let text = std::fs::read_to_string(run.join("summary.json")).unwrap();
+        text.contains("\"points\": 9")
+    };
+    assert!(again(), "a kept run of this version is read");
+    put("run.json", impactlaw::PROGRAM, "impactlaw 0.0.1");
+    assert!(!again(), "one of another version is made again");
+}
+
 #[test]
 fn refinement_runs_the_drawn_cases_again_with_finer_cells() {
     let folder = tempfile::tempdir().unwrap();

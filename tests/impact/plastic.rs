@@ -3,6 +3,7 @@
 use impactlaw::case::Case;
 use impactlaw::curve::{Impact, Status};
 use impactlaw::impact::simulate;
+use impactlaw::material::flow::LinearHardening;
 use impactlaw::plan::plan;
 use serde::Deserialize;
 use std::path::Path;
@@ -204,9 +205,9 @@ fn hardening_stiffens_and_returns_more_energy() {
     let mut soft = case("thesis-4-4.toml");
     soft.tolerance = 0.08;
     let mut hard = soft.clone();
-    if let Some(flow) = &mut hard.material.flow {
-        flow.hardening_modulus = 10e9;
-    }
+    let strength = soft.material.flow.unwrap().yield_strength();
+    let modulus = 10e9;
+    hard.material.flow = Some(LinearHardening { strength, modulus }.into());
     let (s, h) = (run(&soft, 30.0).summary, run(&hard, 30.0).summary);
     assert!(h.max_force_n > 1.05 * s.max_force_n);
     assert!(h.max_displacement_m < 0.98 * s.max_displacement_m);

@@ -12,10 +12,7 @@ pub const MATERIAL: Material = Material {
     density: 8000.0,
     young_modulus: 100e9,
     poisson_ratio: 0.35,
-    flow: Some(Flow {
-        yield_strength: 1.25e9,
-        hardening_modulus: 0.0,
-    }),
+    flow: Some(Flow::perfectly_plastic(1.25e9)),
 };
 
 /// The same without yield.
@@ -26,12 +23,8 @@ pub const ELASTIC: Material = Material {
 
 /// The same with another yield strength, Pa.
 pub fn yielding_at(yield_strength: f64) -> Material {
-    let hardening_modulus = 0.0;
     Material {
-        flow: Some(Flow {
-            yield_strength,
-            hardening_modulus,
-        }),
+        flow: Some(Flow::perfectly_plastic(yield_strength)),
         ..MATERIAL
     }
 }

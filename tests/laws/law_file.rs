@@ -5,7 +5,8 @@ use impactlaw::contact::unloading::Unloading;
 use impactlaw::document::Document;
 use impactlaw::law::file::*;
 use impactlaw::law::{AnyLaw, FittedLaw};
-use impactlaw::material::YIELD_PRESSURE_RATIO;
+use impactlaw::material::flow::FlowConstants;
+use impactlaw::material::{Flow, YIELD_PRESSURE_RATIO};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
@@ -38,8 +39,7 @@ fn example() -> LawFile {
             density_kg_m3: 8000.0,
             young_modulus_pa: 100e9,
             poisson_ratio: 0.35,
-            yield_strength_pa: Some(1.25e9),
-            hardening_modulus_pa: Some(0.0),
+            flow: FlowConstants::of(Some(&Flow::perfectly_plastic(1.25e9))),
         },
         yield_point: None,
         valid: ValidTable {

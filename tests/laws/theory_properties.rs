@@ -14,10 +14,7 @@ fn material(stiffness_ratio: f64, poisson_ratio: f64) -> Material {
         density: 8000.0,
         young_modulus: 100e9,
         poisson_ratio,
-        flow: Some(Flow {
-            yield_strength: 100e9 / stiffness_ratio,
-            hardening_modulus: 0.0,
-        }),
+        flow: Some(Flow::perfectly_plastic(100e9 / stiffness_ratio)),
     }
 }
 
@@ -133,8 +130,8 @@ fn smooth(material: &Material, x: f64) -> bool {
     let k = 2.8 * (0.454 + 0.41 * material.poisson_ratio);
     let c = 1.295 * (0.736 * material.poisson_ratio).exp();
     let meeting = (4.5 * std::f64::consts::PI / material.contact_modulus()
-        * material.flow.unwrap().yield_strength)
-        .powi(2);
+        * material.flow.unwrap().yield_strength())
+    .powi(2);
     // flattening of rho V^2/Y = 0.1 on the spring 5 Y
     let luding = (0.1 * 4.0 / 15.0 * std::f64::consts::PI).sqrt();
     let corners = [

@@ -272,10 +272,7 @@ fn spring_laws_have_the_restitution_of_johnson_at_the_damage_number_they_are_mad
     for stiffness_ratio in [20.0, 33.0, 40.0, 80.0, 200.0, 630.0, 2e3, 6e3, 2e4] {
         let strength = 100e9 / stiffness_ratio;
         let mut material = MATERIAL;
-        material.flow = Some(Flow {
-            yield_strength: strength,
-            hardening_modulus: 0.0,
-        });
+        material.flow = Some(Flow::perfectly_plastic(strength));
         let velocity = (0.01 * strength / material.density).sqrt();
         let ratio: f64 = strength / material.contact_modulus();
         let johnson = 3.8 * (2.0 * PI / 3.0 * 0.01_f64).powf(-0.125) * ratio.sqrt();

@@ -1,11 +1,12 @@
 //! Materials of a scene: constants and the law of each, and the laws the scene is run under.
 
 use crate::bed::scene::FITTED;
-use crate::case::MaterialTable;
+use crate::case::ElasticTable;
 use crate::document::Document;
 use crate::error::must_be_one_of;
 use crate::law::{AnyLaw, LawFile};
 use crate::material::Material;
+use crate::material::flow::{FlowConstants, InText, WithFlow};
 use crate::theory::Theory;
 use crate::unit::{Density, Pressure, Quantity};
 use crate::{Error, Result};
@@ -16,14 +17,15 @@ use std::collections::BTreeMap;
 pub const OWN: &str = "own";
 
 /// Material as it is written; with a law file its constants may be left to that file.
+pub(super) type SceneMaterialTable = WithFlow<ElasticAndLaw, InText>;
+
+/// Its keys besides the constants of the flow stress.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct SceneMaterialTable {
+pub(super) struct ElasticAndLaw {
     density: Option<Quantity<Density>>,
     young_modulus: Option<Quantity<Pressure>>,
     poisson_ratio: Option<f64>,
-    yield_strength: Option<Quantity<Pressure>>,
-    hardening_modulus: Option<Quantity<Pressure>>,
     law: Option<String>,
 }
 
@@ -60,7 +62,10 @@ pub(super) fn check_materials(
     several: BTreeMap<String, SceneMaterialTable>,
 ) -> Result<Vec<GrainMaterial>> {
     match single {
-        Some(table) if several.is_empty() => Ok(vec![table.check(document, "grains", "material")?]),
+        Some(table) if several.is_empty() => {
+            let SceneMaterialTable { others, flow } = table;
+            Ok(vec![others.check(&flow, document, "grains", "material")?])
+        }
         Some(_) => Err(document.reject(
             "material",
             "must stand alone, or move to `[materials.NAME]` beside the others",
@@ -73,20 +78,26 @@ pub(super) fn check_materials(
             .into_iter()
             .map(|(name, table)| {
                 let key = format!("materials.{name}");
-                table.check(document, &name, &key)
+                let SceneMaterialTable { others, flow } = table;
+                others.check(&flow, document, &name, &key)
             })
             .collect(),
     }
 }
 
-impl SceneMaterialTable {
-    fn check(self, document: &Document, name: &str, key: &str) -> Result<GrainMaterial> {
+impl ElasticAndLaw {
+    fn check(
+        self,
+        flow: &FlowConstants<InText>,
+        document: &Document,
+        name: &str,
+        key: &str,
+    ) -> Result<GrainMaterial> {
         let law = self.law(document, key)?;
         let bare = self.density.is_none()
             && self.young_modulus.is_none()
             && self.poisson_ratio.is_none()
-            && self.yield_strength.is_none()
-            && self.hardening_modulus.is_none();
+            && flow.is_empty();
         let material = match &law {
             LawChoice::File(file) if bare => file.material(),
             _ => {
@@ -96,14 +107,12 @@ impl SceneMaterialTable {
                         "must be there, or leave all constants to the law file that `law` names",
                     )
                 };
-                MaterialTable {
+                ElasticTable {
                     density: self.density.ok_or_else(|| missing("density"))?,
                     young_modulus: self.young_modulus.ok_or_else(|| missing("young_modulus"))?,
                     poisson_ratio: self.poisson_ratio.ok_or_else(|| missing("poisson_ratio"))?,
-                    yield_strength: self.yield_strength,
-                    hardening_modulus: self.hardening_modulus,
                 }
-                .check_at(document, key)?
+                .check(flow, document, key)?
             }
         };
         let material = GrainMaterial {

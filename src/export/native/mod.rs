@@ -186,7 +186,7 @@ pub fn project(law: &Portable, target: &Target) -> Result<Vec<Projection>> {
         yield_ratio: n[1],
     };
     let limited = fit::project(target, &[material.contact_modulus(), 0.05], ning)?;
-    let dimension = fit::project(target, &[young, flow.yield_strength], |n| {
+    let dimension = fit::project(target, &[young, flow.yield_strength()], |n| {
         Mdr::new(n[0], nu, n[1])
     })?;
     let models = [

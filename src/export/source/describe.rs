@@ -23,7 +23,10 @@ Not in the law: friction, rolling resistance, viscous damping.";
 pub fn lines(law: &Portable) -> Vec<String> {
     let mut text = String::new();
     let file = &law.file;
-    let material = &file.material;
+    let material = file.material();
+    let flow = material
+        .flow
+        .map_or_else(|| "elastic".to_owned(), |flow| flow.to_string());
     let form = match law.form {
         Form::Hertz => "elastic",
         Form::ClosedForm => "closed form",
@@ -36,16 +39,8 @@ pub fn lines(law: &Portable) -> Vec<String> {
     );
     let _ = writeln!(
         text,
-        "Material: density {} kg/m3, Young's modulus {:e} Pa, Poisson's ratio {}, yield strength {}, linear hardening {}.",
-        material.density_kg_m3,
-        material.young_modulus_pa,
-        material.poisson_ratio,
-        material
-            .yield_strength_pa
-            .map_or("none".to_owned(), |y| format!("{y:e} Pa")),
-        material
-            .hardening_modulus_pa
-            .map_or("none".to_owned(), |h| format!("{h:e} Pa")),
+        "Material: density {} kg/m3, Young's modulus {:e} Pa, Poisson's ratio {}, {flow}.",
+        material.density, material.young_modulus, material.poisson_ratio,
     );
     let _ = writeln!(
         text,

@@ -1,8 +1,8 @@
 //! Dialect: what a target states in its own file, the form its code wants a law in.
 
-use crate::export::source::artifact::Artifact;
 use super::portable::Portable;
 use crate::Result;
+use crate::export::source::artifact::Artifact;
 
 /// Files of the contact of two materials.
 pub type PairExport = fn(&Portable, &Portable) -> Result<Vec<Artifact>>;

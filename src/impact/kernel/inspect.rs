@@ -3,7 +3,7 @@
 use super::part::Level;
 use crate::impact::kernel::{Cell, Part, Point, Points, Purpose, Sweep};
 use crate::lanes::{Lanes, WIDTH};
-use crate::material::stress::Constitutive;
+use crate::material::stress::{Constitutive, Kinematics};
 use crate::space::{Space, Symmetric};
 use crate::tape::{Keep, Tape};
 
@@ -25,21 +25,24 @@ pub struct PointView {
 impl<S: Space, M: Constitutive<S>, const N: usize> Keep for Points<S, M, N> {
     fn save(&self, tape: &mut Tape) {
         self.states.as_slice().save(tape);
-        let left: Vec<(u32, f64)> = self.cells.iter().map(|c| (c.first, c.strength)).collect();
-        left.save(tape);
+        self.clock.save(tape);
+        let left = self.cells.iter().map(|c| (c.first, (c.strength, c.moved)));
+        left.collect::<Vec<_>>().save(tape);
         let ends: Vec<usize> = self.levels.iter().map(|l| l.end).collect();
         ends.save(tape);
     }
 
     fn load(&mut self, tape: &mut Tape) -> Option<()> {
         self.states.as_mut_slice().load(tape)?;
-        let mut left: Vec<(u32, f64)> = Vec::new();
+        self.clock.load(tape)?;
+        let mut left: Vec<(u32, (f64, f64))> = Vec::new();
         left.load(tape)?;
-        let kept = |(first, strength): &(u32, f64)| {
+        let kept = |(first, (strength, moved)): &(u32, (f64, f64))| {
             let place = self.cells.binary_search_by_key(first, |c| c.first).ok()?;
             let cell = self.cells[place];
             Some(Cell {
                 strength: *strength,
+                moved: *moved,
                 ..cell
             })
         };
@@ -78,7 +81,12 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
             for block in cell.first as usize..cell.last as usize {
                 let f = self.gradient(cell, block, u);
                 let j = S::determinant(&f);
-                let trial = self.material.trial(&f, j.recip_cbrt(), &self.states[block]);
+                let kinematics = Kinematics {
+                    gradient: f,
+                    recip_j: j.recip(),
+                    recip_cbrt_j: j.recip_cbrt(),
+                };
+                let trial = self.material.trial(&kinematics, &self.states[block]);
                 let mises = (trial.deviator.squared_norm() * 1.5).sqrt() * j.recip();
                 let strain = M::plastic_strain(&self.states[block]);
                 for lane in 0..WIDTH {

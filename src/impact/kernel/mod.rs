@@ -16,7 +16,7 @@ use part::Level;
 pub use part::Part;
 
 use crate::lanes::{Lanes, WIDTH};
-use crate::material::stress::{Constitutive, Response};
+use crate::material::stress::{Constitutive, Kinematics, Response};
 use crate::space::{Space, Symmetric};
 
 /// Blocks that a pass works on before the next one follows: their weights stay in the nearest cache in between.
@@ -67,17 +67,17 @@ struct Cell {
     dilatation: f64,
     /// What [`Points::steepness`] found last.
     steepness: f64,
+    /// When the states of its points last moved on.
+    moved: f64,
 }
 
 /// What the passes of a sweep hand on of one block.
 #[derive(Clone, Copy)]
 struct Scratch<S: Space> {
-    /// Deformation gradients, then stresses times volumes.
-    gradient: S::Gradient,
-    /// Volume ratios J, $1/J$ and $J^{-1/3}$.
+    /// Deformation; its gradient becomes the stress times the volume.
+    kinematics: Kinematics<S>,
+    /// Volume ratio J.
     j: Lanes,
-    recip_j: Lanes,
-    recip_cbrt_j: Lanes,
     /// Isochoric response.
     response: Response<S::Symmetric>,
 }
@@ -95,10 +95,12 @@ impl<S: Space> Scratch<S> {
     fn virgin() -> Self {
         let one = Lanes::splat(1.0);
         Scratch {
-            gradient: S::identity(),
+            kinematics: Kinematics {
+                gradient: S::identity(),
+                recip_j: one,
+                recip_cbrt_j: one,
+            },
             j: one,
-            recip_j: one,
-            recip_cbrt_j: one,
             response: Response {
                 deviator: S::Symmetric::identity(),
                 mean: one,
@@ -127,6 +129,8 @@ pub struct Points<S: Space, M: Constitutive<S>, const N: usize> {
     material: M,
     /// Share of the volumetric stiffness on the points' own volume ratio.
     own_volume: f64,
+    /// Time, R/c0.
+    clock: f64,
 }
 
 /// Energies seen on the way through the points.
@@ -140,15 +144,25 @@ pub struct Sweep {
     pub least_j: f64,
 }
 
-/// What a sweep does besides the forces.
+/// What a sweep does besides the forces. Points yield in the time since their states last moved on; a sweep that only looks
+/// leaves that to the next step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Purpose {
     /// A time step: states move on.
     Step,
     /// A time step that also sums the elastic energy.
     Audit,
+    /// Forces and energies as [`Purpose::Audit`] would find them, with the states left as they are.
+    Look,
     /// Elastic forces with the states frozen.
     Trial,
+}
+
+impl Purpose {
+    /// Whether the elastic energy is summed.
+    fn sums_energy(self) -> bool {
+        matches!(self, Purpose::Audit | Purpose::Look)
+    }
 }
 
 impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
@@ -174,6 +188,7 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
             cold: Vec::new(),
             material,
             own_volume,
+            clock: 0.0,
         }
     }
 
@@ -203,6 +218,7 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
             strength: 1.0,
             dilatation: 1.0,
             steepness: 0.0,
+            moved: self.clock,
         });
         self.levels[0].end = self.cells.len();
         let blocks = (last - first) as usize;
@@ -237,6 +253,11 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
     /// Way from a cell's first node to its others.
     pub fn offsets(&self) -> [usize; N] {
         self.offsets
+    }
+
+    /// Let `dt` pass: displacements are now those at its end.
+    pub fn pass_time(&mut self, dt: f64) {
+        self.clock += dt;
     }
 
     /// Memory of what the loop works on, bytes.

@@ -86,10 +86,10 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
                 tally.least = tally.least.zip(j, |a, b| if b >= a { a } else { b });
                 volume += j * self.volumes[block];
                 let scratch = &mut self.scratch[at];
-                scratch.gradient = gradient;
+                scratch.kinematics.gradient = gradient;
                 scratch.j = j;
-                scratch.recip_j = j.recip();
-                scratch.recip_cbrt_j = j.near_recip_cbrt();
+                scratch.kinematics.recip_j = j.recip();
+                scratch.kinematics.recip_cbrt_j = j.near_recip_cbrt();
                 at += 1;
             }
             self.cells[index].dilatation = volume.sum() / cell.volume;
@@ -121,35 +121,44 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
     /// Isochoric responses of a batch of cells.
     #[inline(always)]
     fn respond(&mut self, cells: Range<usize>, purpose: Purpose) {
-        let cells = &self.cells[cells];
+        let cells = &mut self.cells[cells];
         let count = Self::blocks(cells).count();
         let scratch = &mut self.scratch[..count];
         let mut far = false;
         for s in scratch.iter_mut() {
-            s.recip_cbrt_j = s.recip_cbrt_j.toward_recip_cbrt(s.j);
+            let root = &mut s.kinematics.recip_cbrt_j;
+            *root = root.toward_recip_cbrt(s.j);
             far |= s.j.is_far_from_one();
         }
         for s in scratch.iter_mut() {
-            s.recip_cbrt_j = s.recip_cbrt_j.toward_recip_cbrt(s.j);
+            let root = &mut s.kinematics.recip_cbrt_j;
+            *root = root.toward_recip_cbrt(s.j);
         }
         if far {
             for s in scratch.iter_mut() {
-                s.recip_cbrt_j = s.j.recip_cbrt();
+                s.kinematics.recip_cbrt_j = s.j.recip_cbrt();
             }
         }
         for (s, block) in scratch.iter_mut().zip(Self::blocks(cells)) {
-            s.response = (self.material).trial(&s.gradient, s.recip_cbrt_j, &self.states[block]);
+            s.response = (self.material).trial(&s.kinematics, &self.states[block]);
         }
-        if purpose != Purpose::Trial {
-            for (s, block) in scratch.iter_mut().zip(Self::blocks(cells)) {
-                let state = &mut self.states[block];
-                s.response = self.material.settle(
-                    &s.gradient,
-                    s.recip_j,
-                    s.recip_cbrt_j,
-                    state,
-                    &s.response,
-                );
+        if purpose == Purpose::Trial {
+            return;
+        }
+        let mut scratch = scratch.iter_mut();
+        for cell in cells {
+            let dt = self.clock - cell.moved;
+            let states = &mut self.states[cell.first as usize..cell.last as usize];
+            if purpose == Purpose::Look {
+                for (state, s) in states.iter().zip(&mut scratch) {
+                    let mut state = *state;
+                    s.response = (self.material).settle(&s.kinematics, dt, &mut state, &s.response);
+                }
+            } else {
+                for (state, s) in states.iter_mut().zip(&mut scratch) {
+                    s.response = (self.material).settle(&s.kinematics, dt, state, &s.response);
+                }
+                cell.moved = self.clock;
             }
         }
     }
@@ -169,7 +178,7 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
                 // a point turned inside out has no meaningful dissipation
                 let work = answer.dissipation * volume;
                 tally.plastic += work.where_positive(j, Lanes::default());
-                if purpose == Purpose::Audit {
+                if purpose.sums_energy() {
                     let mut energy = (answer.mean - Lanes::splat(1.0)) * (1.5 * moduli.shear);
                     if self.own_volume > 0.0 {
                         energy += j.map(|j| moduli.volumetric_energy(j)) * self.own_volume;
@@ -178,9 +187,14 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
                 }
                 let own = (j * j - Lanes::splat(1.0)) * own_bulk;
                 let tau = (answer.deviator).shifted(j.mul_add(Lanes::splat(pressure), own));
-                scratch.gradient = S::first_piola(&tau, &scratch.gradient, scratch.recip_j, volume);
+                scratch.kinematics.gradient = S::first_piola(
+                    &tau,
+                    &scratch.kinematics.gradient,
+                    scratch.kinematics.recip_j,
+                    volume,
+                );
             }
-            if purpose == Purpose::Audit {
+            if purpose.sums_energy() {
                 let energy = moduli.volumetric_energy(cell.dilatation);
                 tally.elastic += share * cell.strength * cell.volume * energy;
             }
@@ -200,7 +214,7 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
                     let factors = &self.factors[block * Self::STRIDE..][..Self::STRIDE];
                     let (first, _) = factors.split_at(2 * Self::SIDE);
                     let weights = S::row(factors, Self::SIDE, row);
-                    S::add_row_force(force, &scratch.gradient, first, &weights);
+                    S::add_row_force(force, &scratch.kinematics.gradient, first, &weights);
                 }
             }
             at += blocks.len();
@@ -301,6 +315,29 @@ pub(super) mod tests {
             unsafe { p.pass_avx2(0..p.cells.len(), Purpose::Audit, u) }
         });
         assert_eq!(plain, vector);
+    }
+
+    #[test]
+    fn a_look_leaves_the_states_and_finds_what_the_step_then_does() {
+        let model = model::build::<_, 2, 9>(&GRID, Layout::Fitted, metal(), 1e-9);
+        let u: Vec<[f64; 2]> = (0..model.mass.len())
+            .map(|n| [0.0, 4e-3 * (0.7 * n as f64).cos()])
+            .collect();
+        let sweep = |points: &mut Points<_, Metal, 9>, purpose| {
+            let mut force = vec![[0.0; 2]; u.len()];
+            let sweep = points.sweep(purpose, &u, &mut force);
+            (sweep.plastic, sweep.elastic, force)
+        };
+        let (mut looked, mut alone) = (model.points.clone(), model.points);
+        let seen = sweep(&mut looked, Purpose::Look);
+        assert!(seen.0 > 0.0);
+        assert_eq!(looked.plastic_strain_volume(), 0.0);
+        let step = sweep(&mut looked, Purpose::Audit);
+        assert_eq!(step, seen);
+        assert_eq!(step, sweep(&mut alone, Purpose::Audit));
+        // the step has been taken: a look after it finds no more than rounding
+        let after = sweep(&mut looked, Purpose::Look);
+        assert!(after.0.abs() < 1e-12 * seen.0, "{}", after.0);
     }
 
     #[test]

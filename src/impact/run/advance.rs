@@ -42,10 +42,8 @@ where
         } else if let Err(reason) = self.erosion.take_out_inverted(points, &self.u) {
             self.failure = Some(reason);
         }
-        // the states of the others have moved on to these displacements: they answer as before and dissipate no more
-        let again = points.sweep_part(part, purpose, &self.u, force);
-        self.plastic += again.plastic;
-        again
+        // the states have moved on to these displacements: the cells that are left answer as before and dissipate no more
+        points.sweep_part(part, Purpose::Look, &self.u, force)
     }
 
     /// One step of the symplectic scheme: forces at $u_n$, velocities to n + 1/2, contact, displacements to n + 1.
@@ -132,5 +130,6 @@ where
             }
         }
         self.time += dt;
+        self.model.points.pass_time(dt);
     }
 }

@@ -3,7 +3,7 @@
 use crate::curve::{
     Curve, Impact, MapPoint, Part, ParticleMap, Sample, Status, Summary, Tangential,
 };
-use crate::material::Material;
+use crate::material::{Material, ReferenceUnits};
 use crate::tape::keep_fields;
 
 /// One output in run units (R, R/c0, E R^2, E R^3).
@@ -222,9 +222,8 @@ impl Record {
     /// Curve and figures in SI units.
     #[must_use]
     pub fn impact(&self, material: &Material, radius: f64, velocity: f64, wall_s: f64) -> Impact {
-        let time = radius / (material.young_modulus / material.density).sqrt();
-        let force = material.young_modulus * radius * radius;
-        let energy = force * radius;
+        let units = ReferenceUnits::of(material, radius);
+        let (time, force, energy) = (units.time(), units.force(), units.energy());
         let mut samples = Vec::with_capacity(self.frames.len());
         for pair in self.frames.windows(2) {
             if pair[0].time > self.contact_end {

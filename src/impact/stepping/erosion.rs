@@ -129,7 +129,7 @@ impl Erosion {
         u: &[S::Vector],
         left: &[f64],
     ) -> Result<(), String> {
-        let energies = points.one_by_one(part, Purpose::Audit, u, |sweep, _| sweep.elastic);
+        let energies = points.one_by_one(part, Purpose::Look, u, |sweep, _| sweep.elastic);
         for (energy, left) in energies.iter().zip(left) {
             if energy.is_finite() {
                 self.energy += (1.0 - left) * energy;

@@ -15,7 +15,7 @@ use crate::impact::run::record::{Frame, Record, SectionView, Snapshot};
 use crate::impact::wall::CONTACT_TOLERANCE;
 use crate::impact::wall::meridian::{Contact, Wall};
 use crate::lanes::Lanes;
-use crate::material::stress::{Constitutive, Response};
+use crate::material::stress::{Constitutive, Kinematics, Response};
 use crate::plan::Plan;
 use crate::scheme::{Layout, TimeStep, Transfer};
 use crate::space::{Axisymmetric, Space, Symmetric};
@@ -226,9 +226,12 @@ impl<'a, M: Constitutive<Axisymmetric>, const P: usize, const N: usize> Updated<
             let f = gradient(&p.deformation);
             let j = Axisymmetric::determinant(&f);
             let recip_j = j.recip();
-            let answer: Response<_> =
-                self.material
-                    .update(&f, recip_j, j.recip_cbrt(), &mut p.state);
+            let kinematics = Kinematics {
+                gradient: f,
+                recip_j,
+                recip_cbrt_j: j.recip_cbrt(),
+            };
+            let answer: Response<_> = (self.material).update(&kinematics, self.dt, &mut p.state);
             self.least_j = if self.least_j <= j.array()[0] {
                 self.least_j
             } else {

@@ -1,0 +1,168 @@
+//! Flow stress: the yield strength and the effects that change it; one list of all kinds, each a file beside this one.
+//!
+//! To add one, write its file (constants, stress, slope, and what it remembers) and name it in the list below. Case and scene
+//! files, law files, plans, reports, studies and exports walk its constants and need no change.
+
+mod declare;
+mod linear_hardening;
+mod perfectly_plastic;
+mod written;
+
+pub(super) use declare::flow_stress;
+use declare::flow_stresses;
+pub use written::{FlowConstants, InSi, InText, Spelling, WithFlow};
+
+use super::constant::{Constant, Dimension, Range};
+use super::reference::ReferenceUnits;
+use crate::lanes::Lanes;
+use crate::tape::Keep;
+use std::fmt;
+
+flow_stresses! {
+    perfectly_plastic::PerfectlyPlastic,
+    linear_hardening::LinearHardening,
+}
+
+/// Initial yield strength Y, the constant that every flow stress has.
+pub const YIELD_STRENGTH: Constant = Constant {
+    key: "yield_strength",
+    symbol: "Y",
+    effect: "plasticity",
+    dimension: Dimension::Stress,
+    range: Range::BelowYoungModulus,
+    may_be_absent: false,
+};
+
+/// Flow stress $\sigma_y(\varepsilon_p, \Delta\varepsilon_p / \Delta t, \ldots)$ of a material point, in reference units.
+///
+/// The strain passed is the accumulated equivalent plastic strain at the end of the step, the increment its growth in the
+/// step, `dt` the length of the step. Where `dt` is 0, a stress that grows with the rate has an infinite slope: nothing flows
+/// in no time. The stress without an increment is that at rest, from which yielding begins.
+pub trait FlowStress: Constants + Send + Sync + 'static {
+    /// What a point remembers besides its plastic strain (a temperature, say); `()` takes no room.
+    type Memory: Copy + Default + fmt::Debug + Keep + Send + Sync;
+    /// Newton steps that solve the return exactly (1 where the flow stress is linear in the increment).
+    const NEWTON_STEPS: usize = 1;
+
+    /// Flow stress.
+    fn stress(&self, strain: Lanes, increment: Lanes, dt: f64, memory: &Self::Memory) -> Lanes;
+
+    /// Its whole derivative with respect to the increment, which the strain grows by.
+    fn slope(&self, strain: Lanes, increment: Lanes, dt: f64, memory: &Self::Memory) -> Lanes;
+
+    /// What a point remembers after a step that took the plastic work `work` per reference volume.
+    #[inline(always)]
+    fn remember(&self, _increment: Lanes, _dt: f64, _work: Lanes, _memory: &mut Self::Memory) {}
+
+    /// Length $\gamma$ of the radial return of a deviator of size `norm`: the root of
+    /// $\|s\| - k \gamma - \sqrt{2/3}\, \sigma_y(\varepsilon + \Delta, \Delta)$ with $\Delta = \sqrt{2/3}\, \gamma$ and k =
+    /// `stiffness`. Newton's method from 0; a flow stress whose slope is infinite there solves for itself.
+    #[inline(always)]
+    fn length_of_return(
+        &self,
+        norm: Lanes,
+        stiffness: Lanes,
+        strain: Lanes,
+        dt: f64,
+        memory: &Self::Memory,
+    ) -> Lanes {
+        let mut length = Lanes::default();
+        for _ in 0..Self::NEWTON_STEPS {
+            let increment = length * ROOT;
+            let end = strain + increment;
+            let misfit = norm - stiffness * length - self.stress(end, increment, dt, memory) * ROOT;
+            let slope = stiffness + self.slope(end, increment, dt, memory) * (2.0 / 3.0);
+            length += misfit * slope.recip();
+        }
+        length
+    }
+}
+
+/// $\sqrt{2/3}$: deviator norm over equivalent stress, equivalent plastic strain over length of return.
+pub const ROOT: f64 = 0.816_496_580_927_726;
+
+/// A flow stress by its constants. Implemented by `flow_stress!`.
+pub trait Constants: Copy + fmt::Debug + PartialEq {
+    /// Name in running text.
+    const NAME: &'static str;
+    /// The constants.
+    const CONSTANTS: &'static [Constant];
+    /// Of the value of each constant, asked for in their order.
+    #[must_use]
+    fn of(value: impl FnMut(&Constant) -> f64) -> Self;
+    /// Values, in the order of the constants.
+    #[must_use]
+    fn values(&self) -> Vec<f64>;
+    /// The same with its constants in reference units.
+    #[must_use]
+    fn in_reference(&self, units: &ReferenceUnits) -> Self {
+        let scaled = |(constant, value): (&Constant, f64)| value / units.unit(constant.dimension);
+        let mut values = Self::CONSTANTS.iter().zip(self.values()).map(scaled);
+        Self::of(|_| values.next().unwrap_or_default())
+    }
+}
+
+/// What is done with whatever flow stress a material has; its type is known inside.
+pub trait FlowVisitor {
+    /// What comes of it.
+    type Output;
+    /// Called with the flow stress.
+    fn visit<F: FlowStress>(self, flow: F) -> Self::Output;
+}
+
+/// A kind of flow stress in the list.
+#[derive(Debug, Clone, Copy)]
+pub struct Kind {
+    /// Name in running text.
+    pub name: &'static str,
+    /// Its constants.
+    pub constants: &'static [Constant],
+    /// The flow stress of the values of its constants, in their order.
+    of: fn(&[f64]) -> Flow,
+}
+
+impl Flow {
+    /// Constant flow stress of `strength`, Pa.
+    #[must_use]
+    pub const fn perfectly_plastic(strength: f64) -> Self {
+        Flow::PerfectlyPlastic(PerfectlyPlastic { strength })
+    }
+
+    /// Name in running text.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        self.parts().0
+    }
+
+    /// Its constants with their values.
+    #[must_use]
+    pub fn constants(&self) -> Vec<(Constant, f64)> {
+        let (_, constants, values) = self.parts();
+        constants.iter().copied().zip(values).collect()
+    }
+
+    /// Constants of all kinds, each once, in the order of the list.
+    #[must_use]
+    pub fn all_constants() -> Vec<Constant> {
+        let mut all: Vec<Constant> = Vec::new();
+        for constant in Self::KINDS.iter().flat_map(|kind| kind.constants) {
+            if !all.contains(constant) {
+                all.push(*constant);
+            }
+        }
+        all
+    }
+}
+
+/// Name and constants: "perfectly plastic, yield strength 1.25e9 Pa".
+impl fmt::Display for Flow {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(self.name())?;
+        for (constant, value) in self.constants() {
+            let unit = constant.dimension.unit();
+            let text = format!(", {} {value:e} {unit}", constant.name());
+            f.write_str(text.trim_end())?;
+        }
+        Ok(())
+    }
+}
