@@ -3,7 +3,7 @@
 use crate::impact::model::solid::{self, Mesh};
 use crate::impact::model::{self, Model};
 use crate::impact::run::record::Record;
-use crate::impact::run::transfer::{Apic, Blend, Carriers};
+use crate::impact::run::transfer::{Apic, Blend, Carriers, Exchange};
 use crate::impact::run::{Run, incident};
 use crate::impact::updated::Updated;
 use crate::impact::wall::CONTACT_TOLERANCE;
@@ -135,15 +135,13 @@ where
         let start = incident::<S>(plan, speed);
         Carriers::new(points, model.points.offsets(), model.mass.len(), start)
     };
-    match plan.scheme.transfer {
-        Transfer::Persistent => Run::new(model, (), plan, speed).finish(job.keeper()),
-        Transfer::Blend(flip) => {
-            let carriers = carriers();
-            Run::new(model, Blend { carriers, flip }, plan, speed).finish(job.keeper())
-        }
-        Transfer::Apic => {
-            let apic = Apic::new(carriers(), points, &model.places);
-            Run::new(model, apic, plan, speed).finish(job.keeper())
-        }
-    }
+    let transfer = match plan.scheme.transfer {
+        Transfer::Persistent => Exchange::Persistent,
+        Transfer::Blend(flip) => Exchange::Blend(Box::new(Blend {
+            carriers: carriers(),
+            flip,
+        })),
+        Transfer::Apic => Exchange::Apic(Box::new(Apic::new(carriers(), points, &model.places))),
+    };
+    Run::new(model, transfer, plan, speed).finish(job.keeper())
 }

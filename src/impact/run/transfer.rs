@@ -123,6 +123,65 @@ impl<V: Keep, const N: usize> Keep for Carriers<V, N> {
 keep_fields!(impl [V: Keep, const N: usize] Blend<V, N>: carriers);
 keep_fields!(impl [V: Keep, const N: usize] Apic<V, N>: carriers);
 
+/// The transfer a plan asks for, chosen once a step: the loops over points are those of the variants, and the solver
+/// around them is compiled once for all.
+#[derive(Debug, Clone)]
+pub enum Exchange<V, const N: usize> {
+    /// Velocity stays on the nodes.
+    Persistent,
+    /// FLIP, PIC, or between them.
+    Blend(Box<Blend<V, N>>),
+    /// Affine particle-in-cell.
+    Apic(Box<Apic<V, N>>),
+}
+
+impl<V: Keep, const N: usize> Keep for Exchange<V, N> {
+    fn save(&self, tape: &mut Tape) {
+        match self {
+            Exchange::Persistent => {}
+            Exchange::Blend(blend) => blend.save(tape),
+            Exchange::Apic(apic) => apic.save(tape),
+        }
+    }
+
+    fn load(&mut self, tape: &mut Tape) -> Option<()> {
+        match self {
+            Exchange::Persistent => Some(()),
+            Exchange::Blend(blend) => blend.load(tape),
+            Exchange::Apic(apic) => apic.load(tape),
+        }
+    }
+}
+
+impl<V, const N: usize> Remap<V> for Exchange<V, N>
+where
+    V: Copy + Default + Keep + AsRef<[f64]> + AsMut<[f64]>,
+{
+    fn remap(&mut self, step: StepEnd<V>, v: &mut [V]) -> f64 {
+        match self {
+            Exchange::Persistent => 0.0,
+            Exchange::Blend(blend) => blend.remap(step, v),
+            Exchange::Apic(apic) => apic.remap(step, v),
+        }
+    }
+
+    fn travel<'a>(&'a self, u: &'a [V]) -> &'a [V] {
+        match self {
+            Exchange::Persistent => u,
+            Exchange::Blend(blend) => blend.travel(u),
+            Exchange::Apic(apic) => apic.travel(u),
+        }
+    }
+
+    fn bytes(&self) -> usize {
+        match self {
+            Exchange::Persistent => 0,
+            Exchange::Blend(blend) => blend.bytes(),
+            Exchange::Apic(apic) => apic.bytes(),
+        }
+    }
+}
+
 /// FLIP, PIC, or between them: $v_p \leftarrow \alpha (v_p + \sum_i N_{ip} \Delta v_i) + (1 - \alpha) \sum_i N_{ip} v_i$.
 #[derive(Debug, Clone)]
 pub struct Blend<V, const N: usize> {
