@@ -161,7 +161,7 @@ where
         if let Some(keeper) = &mut keeper
             && keeper.take_up(&mut self)
         {
-            tracing::info!("taken up at step {}", self.step);
+            tracing::info!("resumed at step {}", self.step);
         }
         let mut records = Vec::with_capacity(self.plan.impacts);
         loop {
