@@ -75,6 +75,12 @@ pub enum Error {
         /// Why.
         reason: String,
     },
+    /// Bodies cannot be made or moved.
+    #[error("bodies: {reason}")]
+    Bodies {
+        /// Why.
+        reason: String,
+    },
     /// A figure cannot be drawn.
     #[error("cannot draw {what}: {reason}")]
     Figure {

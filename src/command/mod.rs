@@ -188,12 +188,7 @@ pub fn print(text: &str) -> Result<()> {
 
 /// Runs `work` on a thread of the pool, so that its parallel loops need no change of threads.
 pub(super) fn on_a_worker<T: Send>(work: impl FnOnce() -> Result<T> + Send) -> Result<T> {
-    let mut result = Err(Error::Bed {
-        step: 0,
-        reason: "the thread pool ended before the run".to_owned(),
-    });
-    rayon::scope(|_| result = work());
-    result
+    rayon::scope(|_| work())
 }
 
 #[cfg(test)]

@@ -1,8 +1,8 @@
 //! Feed: the grains that are still to come, and when.
 
-use crate::bed::filling::{lattice, random_of, velocity_of};
+use super::lattice::{Source, lattice, random_of};
 use crate::bed::scene::region::Region;
-use crate::bed::scene::{Amount, Group, Insertion, Scene, Stage};
+use crate::bed::scene::{Amount, Insertion, Scene, Stage};
 use crate::dem::grains::Grains;
 use crate::dem::grains::newcomer::Newcomer;
 use crate::tape::keep_fields;
@@ -32,6 +32,7 @@ keep_fields!(Inflow: active, grains, mass, batches, began);
 #[derive(Debug, Clone, PartialEq)]
 pub struct Feed {
     seed: u64,
+    sources: Vec<Source>,
     /// One for each group of the scene.
     pub inflows: Vec<Inflow>,
 }
@@ -53,16 +54,22 @@ impl Feed {
         };
         Self {
             seed,
+            sources: scene
+                .groups
+                .iter()
+                .map(|group| Source::of(scene, group))
+                .collect(),
             inflows: (0..scene.groups.len()).map(inflow).collect(),
         }
     }
 
     /// Groups that stand on their lattices before the first step.
     #[must_use]
-    pub fn initial(&self, scene: &Scene) -> Vec<usize> {
-        let groups = scene.groups.iter().zip(&self.inflows).enumerate();
-        let initial = groups
-            .filter(|(_, (group, inflow))| inflow.active && group.insertion == Insertion::Lattice);
+    pub fn initial(&self) -> Vec<usize> {
+        let sources = self.sources.iter().zip(&self.inflows).enumerate();
+        let initial = sources.filter(|(_, (source, inflow))| {
+            inflow.active && source.group.insertion == Insertion::Lattice
+        });
         initial.map(|(index, _)| index).collect()
     }
 
@@ -83,61 +90,53 @@ impl Feed {
 
     /// Whether all grains of a group are in.
     #[must_use]
-    pub fn is_complete(&self, scene: &Scene, group: usize) -> bool {
-        let inflow = &self.inflows[group];
-        match scene.groups[group].amount {
-            Amount::Count(count) => inflow.grains >= count,
-            Amount::Mass(mass) => inflow.mass >= mass,
-        }
+    pub fn is_complete(&self, group: usize) -> bool {
+        is_reached(self.sources[group].group.amount, &self.inflows[group])
     }
 
     /// Whether no active group has grains to come.
     #[must_use]
-    pub fn is_done(&self, scene: &Scene) -> bool {
-        (0..self.inflows.len())
-            .all(|group| !self.inflows[group].active || self.is_complete(scene, group))
-    }
-
-    /// Counts a grain of `group` in; whether the group is then complete.
-    pub fn count(&mut self, scene: &Scene, group: usize, grain: Option<&Newcomer>) -> bool {
-        if let Some(grain) = grain {
-            let inflow = &mut self.inflows[group];
-            inflow.grains += 1;
-            inflow.mass += grain.mass();
-        }
-        self.is_complete(scene, group)
+    pub fn is_done(&self) -> bool {
+        (0..self.inflows.len()).all(|group| !self.inflows[group].active || self.is_complete(group))
     }
 
     /// Next lattice of a group, counted in.
-    pub fn lattice(&mut self, scene: &Scene, group: usize) -> Vec<Newcomer> {
-        let mut random = random_of(self.seed, group, self.inflows[group].batches);
-        self.inflows[group].batches += 1;
-        let all = &scene.groups[group];
-        lattice(scene, all, &mut random, |last| {
-            self.count(scene, group, last)
+    pub fn lattice(&mut self, group: usize) -> Vec<Newcomer> {
+        let (source, inflow) = (&self.sources[group], &mut self.inflows[group]);
+        let mut random = random_of(self.seed, group, inflow.batches);
+        inflow.batches += 1;
+        lattice(source, &mut random, |last| {
+            if let Some(grain) = last {
+                inflow.count(grain);
+            }
+            is_reached(source.group.amount, inflow)
         })
     }
 
     /// Grains that come in at `time` (s), clear of those that are there.
-    pub fn due(&mut self, scene: &Scene, grains: &Grains, time: f64) -> Vec<Newcomer> {
+    pub fn due(&mut self, grains: &Grains, time: f64) -> Vec<Newcomer> {
         let mut newcomers = Vec::new();
-        for (index, group) in scene.groups.iter().enumerate() {
-            if !self.inflows[index].active || self.is_complete(scene, index) {
+        for index in 0..self.sources.len() {
+            if !self.inflows[index].active || self.is_complete(index) {
                 continue;
             }
-            let Some(region) = group.region else {
-                newcomers.extend(self.lattice(scene, index));
+            let (region, insertion) = {
+                let group = &self.sources[index].group;
+                (group.region, group.insertion)
+            };
+            let Some(region) = region else {
+                newcomers.extend(self.lattice(index));
                 continue;
             };
             let mut near = near(&region, grains, &newcomers);
-            match group.insertion {
-                Insertion::Lattice => newcomers.extend(self.lattice(scene, index)),
-                Insertion::Pour if near.is_empty() => newcomers.extend(self.lattice(scene, index)),
+            match insertion {
+                Insertion::Lattice => newcomers.extend(self.lattice(index)),
+                Insertion::Pour if near.is_empty() => newcomers.extend(self.lattice(index)),
                 Insertion::Pour => {}
                 Insertion::Stream(rate) => {
                     let due = rate * (time - self.inflows[index].began);
-                    while self.inflows[index].mass < due && !self.is_complete(scene, index) {
-                        let Some(newcomer) = self.one(scene, group, index, &region, &near) else {
+                    while self.inflows[index].mass < due && !self.is_complete(index) {
+                        let Some(newcomer) = self.one(index, &region, &near) else {
                             break;
                         };
                         near.push((newcomer.centre, newcomer.radius));
@@ -150,17 +149,11 @@ impl Feed {
     }
 
     /// One grain of a stream at a random free place, if one is found.
-    fn one(
-        &mut self,
-        scene: &Scene,
-        group: &Group,
-        index: usize,
-        region: &Region,
-        near: &[(Vector, f64)],
-    ) -> Option<Newcomer> {
-        let mut random = random_of(self.seed, index, self.inflows[index].batches);
-        let radius = group.sizes.draw(&mut random);
-        let velocity = velocity_of(group, &mut random);
+    fn one(&mut self, index: usize, region: &Region, near: &[(Vector, f64)]) -> Option<Newcomer> {
+        let (source, inflow) = (&self.sources[index], &mut self.inflows[index]);
+        let mut random = random_of(self.seed, index, inflow.batches);
+        let radius = source.group.sizes.draw(&mut random);
+        let velocity = source.velocity(&mut random);
         let [low, high] = region.corners();
         for _ in 0..TRIES {
             let mut share = || random.random_range(0.0..=1.0);
@@ -169,19 +162,29 @@ impl Feed {
                 .iter()
                 .all(|(other, size)| (*other - centre).length() > size + radius);
             if free && region.holds(centre, radius) {
-                let newcomer = Newcomer {
-                    centre,
-                    radius,
-                    density: scene.materials[group.material].material.density,
-                    material: group.material as u8,
-                    velocity,
-                };
-                self.inflows[index].batches += 1;
-                self.count(scene, index, Some(&newcomer));
+                let newcomer = source.newcomer(centre, radius, velocity);
+                inflow.batches += 1;
+                inflow.count(&newcomer);
                 return Some(newcomer);
             }
         }
         None
+    }
+}
+
+impl Inflow {
+    /// Counts a grain in.
+    fn count(&mut self, grain: &Newcomer) {
+        self.grains += 1;
+        self.mass += grain.mass();
+    }
+}
+
+/// Whether a group has come in by its amount.
+fn is_reached(amount: Amount, inflow: &Inflow) -> bool {
+    match amount {
+        Amount::Count(count) => inflow.grains >= count,
+        Amount::Mass(mass) => inflow.mass >= mass,
     }
 }
 

@@ -2,24 +2,17 @@
 //! would not fit.
 
 pub mod feed;
+pub mod lattice;
 
 use self::feed::Feed;
+use self::lattice::{SPACING, Source, lattice, random_of};
 use crate::Result;
 use crate::bed::scene::region::Region;
-use crate::bed::scene::{Group, Insertion, Scene};
+use crate::bed::scene::{Insertion, Scene};
 use crate::dem::bodies::enclosure::{Room, THICKNESS};
 use crate::dem::bodies::machine::Machine;
 use crate::dem::grains::Grains;
 use crate::dem::grains::neighbours::{Cells, HalfList};
-use crate::dem::grains::newcomer::Newcomer;
-use parry3d::math::Vector;
-use rand::{RngExt, SeedableRng};
-use rand_pcg::Pcg64Mcg;
-
-/// Lattice spacing over the largest diameter: room for the shifts below.
-const SPACING: f64 = 1.1;
-/// Largest shift of a grain off its lattice place along an axis, over the radius: neighbours 2.2 R apart stay apart.
-const SHIFT: f64 = 0.08;
 
 /// Room of a scene whose grains come in below `top` (m): its box, its domain, or the block around its bodies and
 /// the regions grains come in through.
@@ -39,97 +32,6 @@ pub fn room_of(scene: &Scene, top: f64) -> Room {
     Room::block(scene.domain.unwrap_or_else(|| scene.extent()), thickness)
 }
 
-/// Stream of random numbers for one batch of one group.
-#[must_use]
-pub fn random_of(seed: u64, group: usize, batch: u64) -> Pcg64Mcg {
-    // odd constants far from each other: the first batch of the first group has the scene's own seed
-    let group = (group as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15);
-    let batch = batch.wrapping_mul(0xD1B5_4A32_D192_ED03);
-    Pcg64Mcg::seed_from_u64(seed.wrapping_add(group).wrapping_add(batch))
-}
-
-/// Velocity of a newcomer: that of its group and its stir.
-pub fn velocity_of(group: &Group, random: &mut Pcg64Mcg) -> Vector {
-    // an even spread over [-1, 1] has a root mean square of 1/sqrt(3)
-    let mut speed = || group.stir * 3f64.sqrt() * random.random_range(-1.0..=1.0);
-    group.velocity + Vector::new(speed(), speed(), speed())
-}
-
-/// Fills `region`, or the box `room` as high as needed, with grains of `group` until `enough` says so or it is full.
-///
-/// They stand in square layers, each layer moved sideways at random and each grain a little off its place, so that no
-/// columns are left standing.
-pub fn lattice(
-    scene: &Scene,
-    group: &Group,
-    random: &mut Pcg64Mcg,
-    mut enough: impl FnMut(Option<&Newcomer>) -> bool,
-) -> Vec<Newcomer> {
-    let [_, largest] = group.sizes.limits();
-    let spacing = 2.0 * largest * SPACING;
-    let [low, high] = floor_and_lid(scene, group);
-    let size = high - low;
-    let along = |edge: f64| ((edge / spacing) as usize).saturating_sub(1).max(1);
-    let (nx, ny) = (along(size.x), along(size.y));
-    let slack = Vector::new(
-        size.x - nx as f64 * spacing,
-        size.y - ny as f64 * spacing,
-        0.0,
-    );
-    let density = scene.materials[group.material].material.density;
-    let mut layer = Vector::ZERO;
-    let mut newcomers = Vec::new();
-    let mut complete = enough(None);
-    for index in 0.. {
-        let height = index / (nx * ny);
-        if complete || (height + 1) as f64 * spacing > size.z {
-            break;
-        }
-        if index % (nx * ny) == 0 {
-            layer = slack
-                * Vector::new(
-                    random.random_range(0.0..=1.0),
-                    random.random_range(0.0..=1.0),
-                    0.0,
-                );
-        }
-        let place = Vector::new((index % nx) as f64, (index / nx % ny) as f64, height as f64);
-        let mut shift = || SHIFT * largest * random.random_range(-1.0..=1.0);
-        let shift = Vector::new(shift(), shift(), shift());
-        let radius = group.sizes.draw(random);
-        let newcomer = Newcomer {
-            centre: low + (place + 0.5) * spacing + layer + shift,
-            radius,
-            density,
-            material: group.material as u8,
-            velocity: velocity_of(group, random),
-        };
-        if group
-            .region
-            .is_none_or(|region| region.holds(newcomer.centre, radius))
-        {
-            complete = enough(Some(&newcomer));
-            newcomers.push(newcomer);
-        }
-    }
-    newcomers
-}
-
-/// Lowest and highest corner of where a group comes in.
-fn floor_and_lid(scene: &Scene, group: &Group) -> [Vector; 2] {
-    match (&group.region, &scene.container) {
-        (Some(region), _) => region.corners(),
-        (None, Some(container)) => {
-            let lid = container.height.unwrap_or(f64::INFINITY);
-            [
-                Vector::ZERO,
-                Vector::new(container.width, container.depth, lid),
-            ]
-        }
-        (None, None) => [Vector::ZERO; 2],
-    }
-}
-
 /// Grains that are there from the start, in an order that keeps neighbours together in memory, with what is to come;
 /// and the room they are in.
 ///
@@ -143,8 +45,8 @@ pub fn insert(scene: &Scene, seed: u64) -> Result<(Grains, Feed, Room)> {
         ..Grains::default()
     };
     let mut groups = Vec::new();
-    for group in feed.initial(scene) {
-        let newcomers = feed.lattice(scene, group);
+    for group in feed.initial() {
+        let newcomers = feed.lattice(group);
         groups.resize(groups.len() + newcomers.len(), group);
         newcomers.iter().for_each(|one| one.join(&mut grains));
     }
@@ -182,16 +84,15 @@ fn check_regions(scene: &Scene, seed: u64) -> Result<()> {
                 )
             }
             Insertion::Pour => {
+                let source = Source::of(scene, group);
                 let mut random = random_of(seed, index, 0);
-                let first = lattice(scene, group, &mut random, |_| false);
+                let first = lattice(&source, &mut random, |_| false);
                 (first.len(), "one grain".to_owned())
             }
             Insertion::Lattice => {
-                let (mut missing, mut random) = (Feed::new(scene, seed), random_of(seed, index, 0));
-                let all = lattice(scene, group, &mut random, |last| {
-                    missing.count(scene, index, last)
-                });
-                if !missing.is_complete(scene, index) {
+                let mut feed = Feed::new(scene, seed);
+                let all = feed.lattice(index);
+                if !feed.is_complete(index) {
                     let allowed = format!(
                         "must be larger: {} of the grains fit without overlap; enlarge it, or pour them (`insertion = \"pour\"`)",
                         all.len()

@@ -2,7 +2,7 @@
 
 use super::flow::{below, beverloo, bulk_density, steady_rate};
 use super::repose::{Slope, drum, heap};
-use crate::bed::scene::{Measure, Orifice, Plane, Scene};
+use crate::bed::scene::{Measure, Orifice, Plane};
 use crate::dem::dynamics::any::AnyBed;
 use crate::tape::{Keep, Tape, keep_fields};
 use serde::Serialize;
@@ -140,13 +140,13 @@ impl Gauge {
         }
     }
 
-    /// What the gauge has found when the run is over.
+    /// What the gauge has found when the run is over, in `gravity` (m/s2) among grains of a mean `diameter` (m).
     #[must_use]
-    pub fn findings(&self, bed: &dyn AnyBed, scene: &Scene) -> Vec<Finding> {
+    pub fn findings(&self, bed: &dyn AnyBed, gravity: f64, diameter: f64) -> Vec<Finding> {
         match self {
             Gauge::Repose(axis, floor) => repose(heap(bed.grains(), *axis, *floor)),
             Gauge::Slope(slopes) => slope(slopes),
-            Gauge::Flow(flow) => flow.findings(scene),
+            Gauge::Flow(flow) => flow.findings(gravity, diameter),
             Gauge::Plunge(plunge) => plunge.findings(bed),
         }
     }
@@ -221,7 +221,7 @@ impl Flow {
         }
     }
 
-    fn findings(&self, scene: &Scene) -> Vec<Finding> {
+    fn findings(&self, gravity: f64, diameter: f64) -> Vec<Finding> {
         let passed = self.series.last().map_or(0.0, |point| point[1]);
         let mut found = vec![finding("mass discharged", passed, "kg", "")];
         let Some(rate) = steady_rate(&self.series) else {
@@ -230,14 +230,18 @@ impl Flow {
         let note = "steady, between 20 % and 80 % of the mass discharged";
         found.push(finding("mass flow", rate, "kg/s", note));
         if let Some(orifice) = &self.plane.orifice {
-            found.extend(self.against_beverloo(rate, orifice, scene));
+            found.extend(self.against_beverloo(rate, orifice, gravity, diameter));
         }
         found
     }
 
-    fn against_beverloo(&self, rate: f64, orifice: &Orifice, scene: &Scene) -> Vec<Finding> {
-        let gravity = scene.gravity.length();
-        let diameter = 2.0 * scene.radius();
+    fn against_beverloo(
+        &self,
+        rate: f64,
+        orifice: &Orifice,
+        gravity: f64,
+        diameter: f64,
+    ) -> Vec<Finding> {
         let expected = beverloo(
             orifice.constants,
             self.bulk,

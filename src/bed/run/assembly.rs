@@ -2,10 +2,9 @@
 
 use crate::Result;
 use crate::bed::filling::feed::Feed;
-use crate::bed::scene::Scene;
-use crate::bed::stages::time_step::Limits;
+use crate::bed::scene::{GrainMaterial, PairContact};
 use crate::dem::bodies::enclosure::Room;
-use crate::dem::bodies::machine::{BodyState, Machine};
+use crate::dem::bodies::machine::BodyState;
 use crate::dem::dynamics::any::AnyBed;
 use crate::dem::dynamics::compose::{NormalsOf, build, build_mixed};
 use crate::dem::dynamics::{Normals, Parts};
@@ -15,10 +14,6 @@ use crate::dem::force::named::{Constants, Effects};
 use crate::dem::grains::Grains;
 use crate::law::{AnyLaw, LawFile};
 use crate::theory::Theory;
-
-/// Distance up to which neighbours are listed, over the largest radius: the best of a scan between lists that are
-/// short and lists that last.
-const SKIN: f64 = 0.15;
 
 /// Where a bed starts from.
 pub struct Start {
@@ -36,22 +31,38 @@ pub struct Start {
 
 /// How the contacts of a bed are made up.
 pub struct Recipe<'a> {
+    /// Materials.
+    pub materials: &'a [GrainMaterial],
     /// Law of each material.
     pub laws: Vec<AnyLaw>,
     /// Effects beside the laws.
     pub contact: &'a Constants,
-    /// Whether pairs of materials have effects of their own.
-    pub by_pair: bool,
+    /// Pairs of materials with effects of their own.
+    pub pairs: &'a [PairContact],
+    /// Whether contacts of more than one kind can occur; if not, all are of `material`.
+    pub is_mixture: bool,
+    /// Material of the first group of grains.
+    pub material: usize,
+    /// Whether all grains, those to come included, have one radius.
+    pub monodisperse: bool,
+    /// Contact stiffness over that of the material.
+    pub softening: f64,
 }
 
-/// Law of each material in the run called `name`, refused before the first step if one cannot be had.
+/// Law of each material in the run called `name`, refused before the first step if one cannot be had; what is not `used`
+/// needs none.
 ///
 /// # Errors
-/// As [`crate::bed::scene::GrainMaterial::law_in`].
-pub fn laws(scene: &Scene, name: &str, given: Option<&LawFile>) -> Result<Vec<AnyLaw>> {
-    let materials = scene.materials.iter().enumerate();
+/// As [`GrainMaterial::law_in`].
+pub fn laws(
+    materials: &[GrainMaterial],
+    used: impl Fn(usize) -> bool,
+    name: &str,
+    given: Option<&LawFile>,
+) -> Result<Vec<AnyLaw>> {
+    let materials = materials.iter().enumerate();
     materials
-        .map(|(index, material)| match scene.uses(index) {
+        .map(|(index, material)| match used(index) {
             true => material.law_in(name, given),
             false => Ok(AnyLaw::Theory(Theory::Hertz, material.material)),
         })
@@ -60,67 +71,41 @@ pub fn laws(scene: &Scene, name: &str, given: Option<&LawFile>) -> Result<Vec<An
 
 /// Elastic law of each material.
 #[must_use]
-pub fn elastic(scene: &Scene) -> Vec<AnyLaw> {
-    let materials = scene.materials.iter();
+pub fn elastic(materials: &[GrainMaterial]) -> Vec<AnyLaw> {
     materials
+        .iter()
         .map(|material| AnyLaw::Theory(Theory::Hertz, material.material))
         .collect()
 }
 
-/// Bodies of a scene in their room.
+/// Bed of these parts.
 ///
 /// # Errors
-/// As [`Machine::new`].
-pub fn machine(scene: &Scene, room: &Room) -> Result<Machine> {
-    Machine::new(scene.all_bodies(room), scene.gravity, scene.radius())
-}
-
-/// Bed as it is at the start.
-///
-/// # Errors
-/// As [`Machine::new`], and those of the laws.
-pub fn assemble(scene: &Scene, start: &Start, recipe: &Recipe) -> Result<Box<dyn AnyBed>> {
-    let mut machine = machine(scene, &start.room)?;
-    if let Some(bodies) = &start.bodies {
-        machine.restore(bodies, start.time);
-    }
-    let mut grains = start.grains.clone();
-    grains.plastic.fill(0.0);
-    let parts = Parts {
-        grains,
-        machine,
-        gravity: scene.gravity,
-        dt: Limits::of(scene).rayleigh(1.0),
-        skin: SKIN * scene.radii()[1],
-    };
-    let mut bed = match scene.is_mixture() {
-        true => mixture(scene, recipe, parts)?,
+/// Those of the laws.
+pub fn assemble(recipe: &Recipe, parts: Parts) -> Result<Box<dyn AnyBed>> {
+    let mut bed = match recipe.is_mixture {
+        true => mixture(recipe, parts)?,
         false => {
-            let [smallest, largest] = scene.radii();
-            let normals = recipe.laws[scene.groups[0].material].visit(NormalsOf {
-                monodisperse: smallest == largest,
+            let normals = recipe.laws[recipe.material].visit(NormalsOf {
+                monodisperse: recipe.monodisperse,
             })?;
-            build(
-                normals,
-                &Effects::of(recipe.contact, scene.material()),
-                parts,
-            )
+            let material = &recipe.materials[recipe.material].material;
+            build(normals, &Effects::of(recipe.contact, material), parts)
         }
     };
-    bed.soften(scene.contact.softening());
+    bed.soften(recipe.softening);
     Ok(bed)
 }
 
-fn mixture(scene: &Scene, recipe: &Recipe, parts: Parts) -> Result<Box<dyn AnyBed>> {
-    let materials = scene.materials.iter().map(|material| &material.material);
+fn mixture(recipe: &Recipe, parts: Parts) -> Result<Box<dyn AnyBed>> {
+    let materials = recipe.materials.iter().map(|material| &material.material);
     let mixture = Mixture::new(recipe.laws.iter().zip(materials))?;
-    let effects = Table::new(scene.materials.len(), |a, b| {
-        let contact = match b {
-            Some(b) if recipe.by_pair => scene.contact_of(a, b),
-            _ => *recipe.contact,
-        };
-        let material = |index: usize| &scene.materials[index].material;
-        Effects::between(&contact, [Some(material(a)), b.map(material)])
+    let effects = Table::new(recipe.materials.len(), |a, b| {
+        let pairs = recipe.pairs.iter().rev();
+        let own = b.and_then(|b| pairs.clone().find(|pair| pair.is_of(a, b)));
+        let contact = own.map_or(recipe.contact, |pair| &pair.contact);
+        let material = |index: usize| &recipe.materials[index].material;
+        Effects::between(contact, [Some(material(a)), b.map(material)])
     });
     let normals = Normals {
         pair: Box::new(mixture.clone()),

@@ -2,8 +2,10 @@
 
 pub mod assembly;
 pub mod packing;
+mod watch;
 
-use self::assembly::{Recipe, Start, assemble, elastic, laws, machine};
+use self::assembly::{Recipe, Start, assemble, elastic, laws};
+use self::watch::Watch;
 use crate::bed::filling::{check_bodies, insert};
 use crate::bed::measures::series::Row;
 use crate::bed::record::Record;
@@ -11,21 +13,27 @@ use crate::bed::record::oedometer;
 use crate::bed::record::summary::{Counts, Summary};
 use crate::bed::scene::{Scene, Stage};
 use crate::bed::stages::time_step;
-use crate::bed::stages::{Done, Observer, Run};
+use crate::bed::stages::{Done, Run, Terms};
 use crate::bed::view::film::Frame;
 use crate::bed::view::picture::write_picture;
 use crate::bed::view::portrait::{Cast, Portrait};
-use crate::dem::dynamics::any::AnyBed;
+use crate::dem::bodies::enclosure::Room;
+use crate::dem::bodies::machine::Machine;
+use crate::dem::dynamics::Parts;
+use crate::dem::force::named::Constants;
 use crate::dem::grains::Grains;
 use crate::files::write_rows;
 use crate::law::{AnyLaw, LawFile};
-use crate::tape::{Checkpoint, Keeper, TakenUp, keep_fields};
+use crate::tape::{Checkpoint, Keeper, TakenUp};
 use crate::{Error, Result};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// Overlap over diameter above which a warning is given: contacts of one grain are then no longer apart.
 const DEEP: f64 = 0.05;
+/// Distance up to which neighbours are listed, over the largest radius: the best of a scan between lists that are
+/// short and lists that last.
+const SKIN: f64 = 0.15;
 /// File a run under way is kept in.
 const RESTART: &str = "restart.bin";
 
@@ -81,7 +89,7 @@ pub struct BedReport {
 pub fn run_scene(scene: &Scene, given: Option<&LawFile>, options: &Options) -> Result<BedReport> {
     let names = scene.laws.iter();
     let laws: Vec<Vec<AnyLaw>> = names
-        .map(|name| laws(scene, name, given))
+        .map(|name| laws(&scene.materials, |index| scene.uses(index), name, given))
         .collect::<Result<_>>()?;
     let mut start = begin(scene, options)?;
     let prepares = scene.stages.iter().any(Stage::prepares);
@@ -131,6 +139,43 @@ pub(in crate::bed) fn begin(scene: &Scene, options: &Options) -> Result<Start> {
     })
 }
 
+/// Bodies of a scene in their room.
+fn machine(scene: &Scene, room: &Room) -> Result<Machine> {
+    Machine::new(scene.all_bodies(room), scene.gravity, scene.radius())
+}
+
+/// What the bed of a scene is made of where it starts.
+fn parts(scene: &Scene, start: &Start) -> Result<Parts> {
+    let mut machine = machine(scene, &start.room)?;
+    if let Some(bodies) = &start.bodies {
+        machine.restore(bodies, start.time);
+    }
+    let mut grains = start.grains.clone();
+    grains.plastic.fill(0.0);
+    Ok(Parts {
+        grains,
+        machine,
+        gravity: scene.gravity,
+        dt: Terms::of(scene).limits.rayleigh(1.0),
+        skin: SKIN * scene.radii()[1],
+    })
+}
+
+/// How the contacts of a scene are made up under `laws`, pairs of materials left out.
+fn recipe<'a>(scene: &'a Scene, laws: Vec<AnyLaw>, contact: &'a Constants) -> Recipe<'a> {
+    let [smallest, largest] = scene.radii();
+    Recipe {
+        materials: &scene.materials,
+        laws,
+        contact,
+        pairs: &[],
+        is_mixture: scene.is_mixture(),
+        material: scene.groups[0].material,
+        monodisperse: smallest == largest,
+        softening: scene.contact.softening(),
+    }
+}
+
 /// Makes the packing with softened elastic contacts.
 pub(in crate::bed) fn pack(scene: &Scene, start: &mut Start, options: &Options) -> Result<LawRun> {
     let began = Instant::now();
@@ -138,16 +183,19 @@ pub(in crate::bed) fn pack(scene: &Scene, start: &mut Start, options: &Options) 
         Stage::Settle { contact, .. } => Some(*contact),
         _ => None,
     });
-    let recipe = Recipe {
-        laws: elastic(scene),
-        contact: &contact.unwrap_or(scene.contact),
-        by_pair: false,
-    };
-    let bed = assemble(scene, start, &recipe)?;
-    let mut observer = Watch::new("packing", scene, options);
+    let contact = contact.unwrap_or(scene.contact);
+    let recipe = recipe(scene, elastic(&scene.materials), &contact);
+    let bed = assemble(&recipe, parts(scene, start)?)?;
+    let mut watch = Watch::new(
+        "packing",
+        &folder(options, "packing"),
+        scene.output,
+        options,
+    );
     let checkpoint = checkpoint("packing", options);
     let plan = format!("{} {:?} packing", scene.hash, options.seed);
-    let mut run = Run::new(bed, scene, start.room, start.feed.clone(), &mut observer);
+    let (terms, feed) = (Terms::of(scene), start.feed.clone());
+    let mut run = Run::new(bed, terms, start.room, feed, &scene.measures, &mut watch);
     let stages: Vec<&Stage> = scene.stages.iter().filter(|s| s.prepares()).collect();
     go(&mut run, &stages, &plan, checkpoint.as_ref())?;
     start.grains = run.bed.grains().clone();
@@ -156,7 +204,7 @@ pub(in crate::bed) fn pack(scene: &Scene, start: &mut Start, options: &Options) 
     start.feed = run.feed.clone();
     start.feed.restart_clock(start.time);
     let done = run.done();
-    finish("packing", scene, done, observer.record, began, options)
+    finish("packing", scene, done, watch, began, options)
 }
 
 /// Runs the stages after the packing under one law.
@@ -169,19 +217,19 @@ fn under_law(
 ) -> Result<LawRun> {
     let began = Instant::now();
     let recipe = Recipe {
-        laws,
-        contact: &scene.contact,
-        by_pair: true,
+        pairs: &scene.pairs,
+        ..recipe(scene, laws, &scene.contact)
     };
     let plan = format!("{} {:?} {name} {:?}", scene.hash, options.seed, recipe.laws);
-    let bed = assemble(scene, start, &recipe)?;
-    let mut observer = Watch::new(name, scene, options);
+    let bed = assemble(&recipe, parts(scene, start)?)?;
+    let mut watch = Watch::new(name, &folder(options, name), scene.output, options);
     let checkpoint = checkpoint(name, options);
-    let mut run = Run::new(bed, scene, start.room, start.feed.clone(), &mut observer);
+    let (terms, feed) = (Terms::of(scene), start.feed.clone());
+    let mut run = Run::new(bed, terms, start.room, feed, &scene.measures, &mut watch);
     let stages: Vec<&Stage> = scene.stages.iter().filter(|s| !s.prepares()).collect();
     go(&mut run, &stages, &plan, checkpoint.as_ref())?;
     let done = run.done();
-    finish(name, scene, done, observer.record, began, options)
+    finish(name, scene, done, watch, began, options)
 }
 
 /// Takes up what was kept of a run, and runs its stages to their end.
@@ -200,10 +248,9 @@ fn go<'a>(
                 tracing::warn!("{path} is of another scene, law, seed or program: started anew");
             }
             TakenUp::Damaged => {
-                return Err(Error::Bed {
-                    step: 0,
-                    reason: format!("{path} is damaged; remove it to start anew"),
-                });
+                let damaged = "it is damaged; remove it to start anew";
+                let cause = std::io::Error::new(std::io::ErrorKind::InvalidData, damaged);
+                return Err(Error::file("resume from", checkpoint.path())(cause));
             }
         }
     }
@@ -221,7 +268,7 @@ fn finish(
     name: &str,
     scene: &Scene,
     run: Done,
-    record: Record,
+    watch: Watch,
     began: Instant,
     options: &Options,
 ) -> Result<LawRun> {
@@ -247,14 +294,17 @@ fn finish(
     };
     let mut summary = Summary::new(name, &run.rows, counts);
     let findings = run.gauges.iter();
-    let findings = findings.flat_map(|gauge| gauge.findings(run.bed.as_ref(), scene));
+    let findings = findings.flat_map(|gauge| {
+        let gravity = scene.gravity.length();
+        gauge.findings(run.bed.as_ref(), gravity, 2.0 * scene.radius())
+    });
     summary.findings = findings.collect();
-    summary.warnings = warnings(scene, &run);
+    summary.warnings = warnings(&run);
     let folder = folder(options, name);
     write_rows(&folder.join("bed.csv"), options.provenance, &run.rows)?;
     let title = format!("{}: {name}", scene.name);
     let told = format!("{} grains, {} steps", summary.grains, summary.steps);
-    record.finish(run.bed.as_ref(), &title, &told)?;
+    watch.record.finish(run.bed.as_ref(), &title, &told)?;
     summary.write(&folder)?;
     let cast = Cast::of(run.bed.as_ref());
     let now = || Frame::of(run.bed.as_ref(), "");
@@ -263,13 +313,13 @@ fn finish(
         rows: run.rows,
         summary,
         grains: run.bed.grains().clone(),
-        portrait: cast.at(&run.deepest.unwrap_or_else(now)),
-        record,
+        portrait: cast.at(&watch.deepest.unwrap_or_else(now)),
+        record: watch.record,
     })
 }
 
 /// What a user must know before the figures are used.
-fn warnings(scene: &Scene, run: &Done) -> Vec<String> {
+fn warnings(run: &Done) -> Vec<String> {
     let (tally, mut warnings) = (&run.tally, Vec::new());
     if tally.lost > 0 {
         warnings.push(format!(
@@ -289,7 +339,7 @@ fn warnings(scene: &Scene, run: &Done) -> Vec<String> {
             100.0 * tally.max_overlap_ratio
         ));
     }
-    if !run.feed.is_done(scene) {
+    if !run.feed.is_done() {
         warnings.push("not all grains came in".to_owned());
     }
     warnings
@@ -297,29 +347,4 @@ fn warnings(scene: &Scene, run: &Done) -> Vec<String> {
 
 fn folder(options: &Options, name: &str) -> PathBuf {
     options.folder.join("bed").join(name)
-}
-
-/// Passes rows on to the files and to the progress shown.
-struct Watch<'a> {
-    name: String,
-    record: Record,
-    progress: &'a (dyn Fn(&str, &Row) + Sync),
-}
-keep_fields!(impl [] Watch<'_>: record);
-
-impl<'a> Watch<'a> {
-    fn new(name: &str, scene: &Scene, options: &Options<'a>) -> Self {
-        Self {
-            name: name.to_owned(),
-            record: Record::new(&folder(options, name), options.provenance, scene.output),
-            progress: options.progress,
-        }
-    }
-}
-
-impl Observer for Watch<'_> {
-    fn row(&mut self, bed: &dyn AnyBed, row: &Row) -> Result<()> {
-        (self.progress)(&self.name, row);
-        self.record.row(bed, row)
-    }
 }

@@ -27,7 +27,7 @@ pub fn packed(scene: &Scene, options: &Options) -> Result<Packed> {
         pack(scene, &mut start, options)?.record.discard();
     }
     Ok(Packed {
-        complete: start.feed.is_done(scene),
+        complete: start.feed.is_done(),
         grains: start.grains,
         room: start.room,
     })

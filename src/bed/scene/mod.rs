@@ -145,30 +145,14 @@ impl Scene {
         let contact = file.contact.check(document)?;
         let reserved: Vec<&str> = WALLS.iter().copied().chain([PISTON]).collect();
         let bodies = check_bodies(document, file.body, &reserved, &materials, &mut files)?;
-        let mut cast = Cast {
+        let cast = Cast {
             contact: &contact,
-            bodies: bodies.iter().map(|body| body.name.clone()).collect(),
+            bodies: names(&bodies, file.container.is_some(), &file.periodic),
             groups: groups.iter().map(|group| group.name.clone()).collect(),
             boxed: file.container.is_some(),
         };
-        if cast.boxed {
-            let gone = |name: &str| match name {
-                "left" | "right" => file.periodic.iter().any(|side| side == "x"),
-                "front" | "back" => file.periodic.iter().any(|side| side == "y"),
-                _ => false,
-            };
-            let standing = reserved.iter().filter(|name| !gone(name));
-            cast.bodies.extend(standing.map(|&name| name.to_owned()));
-        }
         let stages = check_stages(document, file.stage, &cast)?;
-        let container = match file.container {
-            Some(table) => Some(table.check(document, &stages, &file.periodic)?),
-            None if file.periodic.is_empty() => None,
-            None => {
-                let allowed = "needs a `[box]`, whose width and depth are the periods";
-                return Err(document.reject("periodic", allowed));
-            }
-        };
+        let container = check_box(document, file.container, &stages, &file.periodic)?;
         let scene = Scene {
             name: document.name(),
             hash: hash(document, &files),
@@ -250,17 +234,6 @@ impl Scene {
         several || flattening || !self.pairs.is_empty()
     }
 
-    /// Effects of the contacts of two materials.
-    #[must_use]
-    pub fn contact_of(&self, a: usize, b: usize) -> Constants {
-        let own = self
-            .pairs
-            .iter()
-            .rev()
-            .find(|pair| pair.between == [a, b] || pair.between == [b, a]);
-        own.map_or(self.contact, |pair| pair.contact)
-    }
-
     /// Walls of the box, the piston if it is used, then the scene's own bodies.
     #[must_use]
     pub fn all_bodies(&self, room: &Room) -> Vec<Body> {
@@ -282,6 +255,37 @@ impl Scene {
         corners.fold([Vector::MAX, Vector::MIN], |[low, high], [below, above]| {
             [low.min(below), high.max(above)]
         })
+    }
+}
+
+/// Names of the bodies of a scene, those of its box that stand included.
+fn names(bodies: &[Body], boxed: bool, periodic: &[String]) -> Vec<String> {
+    let gone = |name: &str| match name {
+        "left" | "right" => periodic.iter().any(|side| side == "x"),
+        "front" | "back" => periodic.iter().any(|side| side == "y"),
+        _ => false,
+    };
+    let mut names: Vec<String> = bodies.iter().map(|body| body.name.clone()).collect();
+    if boxed {
+        let standing = WALLS.iter().chain([&PISTON]).filter(|name| !gone(name));
+        names.extend(standing.map(|&name| name.to_owned()));
+    }
+    names
+}
+
+fn check_box(
+    document: &Document,
+    table: Option<BoxTable>,
+    stages: &[Stage],
+    periodic: &[String],
+) -> Result<Option<Container>> {
+    match table {
+        Some(table) => Ok(Some(table.check(document, stages, periodic)?)),
+        None if periodic.is_empty() => Ok(None),
+        None => {
+            let allowed = "needs a `[box]`, whose width and depth are the periods";
+            Err(document.reject("periodic", allowed))
+        }
     }
 }
 

@@ -15,6 +15,14 @@ pub struct PairContact {
     pub contact: Constants,
 }
 
+impl PairContact {
+    /// Whether it is about these two materials.
+    #[must_use]
+    pub fn is_of(&self, a: usize, b: usize) -> bool {
+        self.between == [a, b] || self.between == [b, a]
+    }
+}
+
 /// Table `[[pair]]`.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -34,17 +34,21 @@ pub(super) enum StageTable {
     Unload {
         speed: Quantity<Velocity>,
     },
-    Run {
-        name: Option<String>,
-        duration: Option<Quantity<Time>>,
-        steps: Option<u64>,
-        #[serde(default)]
-        insert: Vec<String>,
-        #[serde(default, rename = "move")]
-        moves: Vec<MoveTable>,
-        #[serde(default)]
-        until: UntilTable,
-    },
+    Run(RunTable),
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RunTable {
+    name: Option<String>,
+    duration: Option<Quantity<Time>>,
+    steps: Option<u64>,
+    #[serde(default)]
+    insert: Vec<String>,
+    #[serde(default, rename = "move")]
+    moves: Vec<MoveTable>,
+    #[serde(default)]
+    until: UntilTable,
 }
 
 #[derive(Debug, Clone, Deserialize)]
@@ -184,30 +188,32 @@ impl StageTable {
             StageTable::Unload { speed } => Stage::Unload {
                 speed: at.positive("speed", speed)?,
             },
-            StageTable::Run {
-                name,
-                duration,
-                steps,
-                insert,
-                moves,
-                until,
-            } => Stage::Run(RunStage {
-                name: name.unwrap_or_else(|| "run".to_owned()),
-                insert: insert
-                    .iter()
-                    .map(|group| one_of(&at, "insert", group, &cast.groups))
-                    .collect::<Result<_>>()?,
-                moves: moves
-                    .into_iter()
-                    .enumerate()
-                    .map(|(index, table)| {
-                        let key = format!("{key}.move[{index}]");
-                        table.check(document, &key, cast)
-                    })
-                    .collect::<Result<_>>()?,
-                longest: longest(&at, duration, steps)?,
-                until: until.check(document, &at.name("until"), cast)?,
-            }),
+            StageTable::Run(run) => Stage::Run(run.check(&at, cast)?),
+        })
+    }
+}
+
+impl RunTable {
+    fn check(self, at: &At, cast: &Cast) -> Result<RunStage> {
+        let (document, key) = (at.document, at.key);
+        Ok(RunStage {
+            name: self.name.unwrap_or_else(|| "run".to_owned()),
+            insert: self
+                .insert
+                .iter()
+                .map(|group| one_of(at, "insert", group, &cast.groups))
+                .collect::<Result<_>>()?,
+            moves: self
+                .moves
+                .into_iter()
+                .enumerate()
+                .map(|(index, table)| {
+                    let key = format!("{key}.move[{index}]");
+                    table.check(document, &key, cast)
+                })
+                .collect::<Result<_>>()?,
+            longest: longest(at, self.duration, self.steps)?,
+            until: self.until.check(document, &at.name("until"), cast)?,
         })
     }
 }

@@ -52,7 +52,7 @@ impl Run<'_> {
             time: self.time(),
             step: self.step(),
             next_row: if steps { 0.0 } else { self.time() },
-            interval: duration / self.scene.output.rows as f64,
+            interval: duration / self.terms.rows as f64,
             face: self.view().face(self.bed.as_ref()),
             growth: self.growth(stage),
             checked: self.place.checked,
@@ -65,7 +65,7 @@ impl Run<'_> {
     fn growth(&self, stage: &Stage) -> f64 {
         match stage {
             Stage::Relax { steps } => {
-                (self.scene.contact.softening() / self.softening).powf(1.0 / *steps as f64)
+                (self.terms.softening / self.softening).powf(1.0 / *steps as f64)
             }
             _ => 1.0,
         }
@@ -95,7 +95,7 @@ impl Run<'_> {
         };
         if self.progress.seated_height.is_none() {
             self.bed.evaluate()?;
-            let face = self.bed.packing().top + PISTON_GAP * self.scene.radii()[0];
+            let face = self.bed.packing().top + PISTON_GAP * self.terms.smallest;
             let middle = face + 0.5 * self.room.thickness;
             self.bed.machine_mut().lift(piston, middle);
             self.bed.list_again();
@@ -207,14 +207,14 @@ impl Run<'_> {
     /// Whether all grains are in and have been slower than `speed` (m/s) for longer than free fall would take to
     /// reach it twice: slow because something carries them.
     fn rests(&self, speed: f64) -> bool {
-        let gravity = self.scene.gravity.length();
+        let gravity = self.terms.gravity.length();
         let fall = if gravity > 0.0 {
             2.0 * speed / gravity
         } else {
             0.0
         };
         let since = self.place.slow_since;
-        since.is_some_and(|since| self.time() - since >= fall) && self.feed.is_done(self.scene)
+        since.is_some_and(|since| self.time() - since >= fall) && self.feed.is_done()
     }
 
     /// Whether a condition that ends a stage holds.
@@ -222,7 +222,7 @@ impl Run<'_> {
         let (until, bed) = (&run.until, self.bed.as_ref());
         let slow = until.rest_speed.is_some_and(|speed| self.rests(speed));
         let calm = until.kinetic_energy.is_some_and(|energy| {
-            survey.is_some() && self.feed.is_done(self.scene) && bed.energies().kinetic < energy
+            survey.is_some() && self.feed.is_done() && bed.energies().kinetic < energy
         });
         let stressed = until
             .stress
@@ -242,14 +242,14 @@ impl Run<'_> {
     pub(in crate::bed) fn change(&mut self, stage: &Stage) {
         if let Stage::Relax { steps } = stage {
             let last = self.step() - self.place.step + 1 == *steps;
-            let full = self.scene.contact.softening();
+            let full = self.terms.softening;
             self.softening = if last {
                 full
             } else {
                 (self.softening * self.place.growth).min(full)
             };
             self.bed.soften(self.softening);
-            let dt = self.limits.rayleigh(self.softening);
+            let dt = self.terms.limits.rayleigh(self.softening);
             self.bed.set_dt(self.bed.clock().0.min(dt));
         }
     }
@@ -257,7 +257,7 @@ impl Run<'_> {
     /// Ends a stage.
     pub(in crate::bed) fn end(&self, stage: &Stage) {
         if let Stage::Run(run) = stage
-            && !self.feed.is_done(self.scene)
+            && !self.feed.is_done()
         {
             tracing::warn!(
                 "{}: not all grains have come in; make the stage longer or the region larger",

@@ -7,11 +7,11 @@ use self::time_step::Limits;
 use crate::bed::filling::feed::Feed;
 use crate::bed::measures::gauge::Gauge;
 use crate::bed::measures::series::{Progress, Row, View};
-use crate::bed::scene::{Scene, Stage};
-use crate::bed::view::film::Frame;
+use crate::bed::scene::{Measure, Scene, Stage};
 use crate::dem::bodies::enclosure::{PISTON, Room};
 use crate::dem::dynamics::any::AnyBed;
 use crate::dem::dynamics::state::Packing;
+use crate::material::Material;
 use crate::tape::{Keep, Keeper, TakenUp, keep_fields};
 use crate::{Error, Result};
 use parry3d::math::Vector;
@@ -28,11 +28,51 @@ pub trait Observer: Keep {
     /// # Errors
     /// Whatever stops the run, e.g. a file that cannot be written.
     fn row(&mut self, bed: &dyn AnyBed, row: &Row) -> Result<()>;
+
+    /// A stage has ended; the bed is as it left it.
+    fn stage_ended(&mut self, bed: &dyn AnyBed, stage: &Stage);
 }
 
 impl Observer for () {
     fn row(&mut self, _: &dyn AnyBed, _: &Row) -> Result<()> {
         Ok(())
+    }
+
+    fn stage_ended(&mut self, _: &dyn AnyBed, _: &Stage) {}
+}
+
+/// What a run has to know of its scene beside the bed, the stages and the grains to come.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Terms {
+    /// Gravity, m/s2.
+    pub gravity: Vector,
+    /// Material of the first group of grains.
+    pub material: Material,
+    /// Smallest radius, m.
+    pub smallest: f64,
+    /// A radius of the middle, m.
+    pub radius: f64,
+    /// Contact stiffness over that of the material once the packing is made.
+    pub softening: f64,
+    /// Bounds on the time step.
+    pub limits: Limits,
+    /// Rows of a stage.
+    pub rows: usize,
+}
+
+impl Terms {
+    /// Terms of a scene.
+    #[must_use]
+    pub fn of(scene: &Scene) -> Self {
+        Self {
+            gravity: scene.gravity,
+            material: *scene.material(),
+            smallest: scene.radii()[0],
+            radius: scene.radius(),
+            softening: scene.contact.softening(),
+            limits: Limits::of(scene.time, &scene.groups, &scene.materials),
+            rows: scene.output.rows,
+        }
     }
 }
 
@@ -88,21 +128,18 @@ pub struct Run<'a> {
     pub feed: Feed,
     /// Measures under way.
     pub gauges: Box<[Gauge]>,
-    /// The bed at the end of the last compression.
-    pub deepest: Option<Frame>,
-    pub(in crate::bed) scene: &'a Scene,
+    pub(in crate::bed) terms: Terms,
     pub(in crate::bed) room: Room,
     observer: &'a mut dyn Observer,
     pub(in crate::bed) progress: Progress,
     pub(in crate::bed) place: Place,
     started: bool,
-    pub(in crate::bed) limits: Limits,
     pub(in crate::bed) softening: f64,
     /// Stages that have ended.
     ended: usize,
     keeper: Option<Keeper<'a>>,
 }
-keep_fields!(impl [] Run<'_>: bed, rows, tally, feed, gauges, deepest, observer, progress, place, started, softening,
+keep_fields!(impl [] Run<'_>: bed, rows, tally, feed, gauges, observer, progress, place, started, softening,
     ended);
 
 /// What a run leaves when its stages have ended.
@@ -117,8 +154,6 @@ pub struct Done {
     pub feed: Feed,
     /// All measures.
     pub gauges: Box<[Gauge]>,
-    /// The bed at the end of the last compression.
-    pub deepest: Option<Frame>,
     /// Seconds the run took before it was resumed.
     pub seconds_before: f64,
 }
@@ -128,9 +163,10 @@ impl<'a> Run<'a> {
     #[must_use]
     pub fn new(
         bed: Box<dyn AnyBed>,
-        scene: &'a Scene,
+        terms: Terms,
         room: Room,
         feed: Feed,
+        measures: &[Measure],
         observer: &'a mut dyn Observer,
     ) -> Self {
         Self {
@@ -138,9 +174,9 @@ impl<'a> Run<'a> {
             rows: Vec::new(),
             tally: Tally::default(),
             feed,
-            gauges: scene.measures.iter().map(Gauge::new).collect(),
-            deepest: None,
-            scene,
+            gauges: measures.iter().map(Gauge::new).collect(),
+            softening: terms.softening,
+            terms,
             room,
             observer,
             progress: Progress {
@@ -151,8 +187,6 @@ impl<'a> Run<'a> {
             },
             place: Place::default(),
             started: false,
-            limits: Limits::of(scene),
-            softening: scene.contact.softening(),
             ended: 0,
             keeper: None,
         }
@@ -175,7 +209,6 @@ impl<'a> Run<'a> {
             tally: self.tally,
             feed: self.feed,
             gauges: self.gauges,
-            deepest: self.deepest,
         }
     }
 
@@ -186,9 +219,7 @@ impl<'a> Run<'a> {
     pub fn stages(&mut self, stages: &[&Stage]) -> Result<()> {
         while let Some(stage) = stages.get(self.ended) {
             self.stage(stage)?;
-            if matches!(stage, Stage::Compress { .. }) {
-                self.deepest = Some(Frame::of(self.bed.as_ref(), stage.name()));
-            }
+            self.observer.stage_ended(self.bed.as_ref(), stage);
             self.ended += 1;
         }
         self.keep(true)
@@ -278,16 +309,16 @@ impl<'a> Run<'a> {
 
     /// Lets the grains that are due come in; the energy they bring is not the bed's imbalance.
     fn let_in(&mut self) {
-        if self.feed.is_done(self.scene) {
+        if self.feed.is_done() {
             return;
         }
         let (dt, time, _) = self.bed.clock();
-        let newcomers = self.feed.due(self.scene, self.bed.grains(), time);
+        let newcomers = self.feed.due(self.bed.grains(), time);
         if newcomers.is_empty() {
             return;
         }
         if self.started {
-            let gravity = self.scene.gravity;
+            let gravity = self.terms.gravity;
             let brought = newcomers.iter().map(|one| one.energy(gravity, dt));
             self.progress.first_balance += brought.sum::<f64>();
         }
@@ -318,6 +349,7 @@ impl<'a> Run<'a> {
 
     fn set_dt(&mut self, packing: &Packing) -> Result<()> {
         let dt = self
+            .terms
             .limits
             .step(self.softening, packing)
             .map_err(|reason| self.stop(reason))?;
@@ -338,9 +370,9 @@ impl<'a> Run<'a> {
     pub(in crate::bed) fn view(&self) -> View<'_> {
         View {
             room: &self.room,
-            material: self.scene.material(),
+            material: &self.terms.material,
             grain_volume: self.bed.grains().volume(),
-            diameter: 2.0 * self.scene.radius(),
+            diameter: 2.0 * self.terms.radius,
         }
     }
 

@@ -1,7 +1,7 @@
 //! Time step: the largest that follows the stiffest contact, the waves through a grain and the fastest grain.
 
 use crate::Result;
-use crate::bed::scene::{Scene, TimeStep};
+use crate::bed::scene::{GrainMaterial, Group, Scene, TimeStep};
 use crate::dem::dynamics::state::Packing;
 use crate::material::Material;
 use crate::unit::engineering;
@@ -64,22 +64,20 @@ pub struct Limits {
 }
 
 impl Limits {
-    /// Limits of a scene.
+    /// Limits for groups of grains, their materials among `materials`.
     #[must_use]
-    pub fn of(scene: &Scene) -> Self {
-        let times = scene.groups.iter().map(|group| {
-            let material = &scene.materials[group.material].material;
-            rayleigh_time(material, group.sizes.limits()[0])
-        });
-        let impacts = scene.groups.iter().map(|group| {
-            let material = &scene.materials[group.material].material;
-            impact_time(material, group.sizes.limits()[0], 1.0)
-        });
+    pub fn of(settings: TimeStep, groups: &[Group], materials: &[GrainMaterial]) -> Self {
+        let smallest = |group: &Group| group.sizes.limits()[0];
+        let least = |value: &dyn Fn(&Group) -> f64| {
+            let values = groups.iter().map(value);
+            values.fold(f64::INFINITY, f64::min)
+        };
+        let material = |group: &Group| &materials[group.material].material;
         Self {
-            settings: scene.time,
-            impact: impacts.fold(f64::INFINITY, f64::min),
-            rayleigh: times.fold(f64::INFINITY, f64::min),
-            smallest: scene.radii()[0],
+            settings,
+            impact: least(&|group| impact_time(material(group), smallest(group), 1.0)),
+            rayleigh: least(&|group| rayleigh_time(material(group), smallest(group))),
+            smallest: least(&smallest),
         }
     }
 
@@ -131,14 +129,12 @@ pub fn check(scene: &Scene) -> Result<()> {
     let Some(step) = scene.time.step else {
         return Ok(());
     };
-    let limit = Limits {
-        settings: TimeStep {
-            step: None,
-            ..scene.time
-        },
-        ..Limits::of(scene)
-    }
-    .rayleigh(scene.contact.softening());
+    let following = TimeStep {
+        step: None,
+        ..scene.time
+    };
+    let limit =
+        Limits::of(following, &scene.groups, &scene.materials).rayleigh(scene.contact.softening());
     if step <= limit {
         return Ok(());
     }

@@ -140,7 +140,7 @@ impl<L: NormalLaw, C: ContactLaw> Ruled<L, C> {
     /// Puts a collider under the law: a ball with its radius, anything else as a rigid flat.
     ///
     /// # Errors
-    /// [`Error::Bed`] when the collider belongs to no body or is not there.
+    /// [`Error::Bodies`] when the collider belongs to no body or is not there.
     pub fn rule(&mut self, world: &mut PhysicsWorld, collider: ColliderHandle) -> Result<()> {
         let shape = world
             .colliders
@@ -214,7 +214,7 @@ impl<L: NormalLaw, C: ContactLaw> Ruled<L, C> {
     /// One step of `dt` (s) of the whole scene.
     ///
     /// # Errors
-    /// [`Error::Bed`] when two rigid flats touch, or a place is no longer a number.
+    /// [`Error::Bodies`] when two rigid flats touch, or a place is no longer a number.
     pub fn step(&mut self, world: &mut PhysicsWorld, dt: f64) -> Result<()> {
         if !self.seen {
             // a step of no length only finds the pairs
@@ -380,5 +380,5 @@ impl<L: NormalLaw, C: ContactLaw> Ruled<L, C> {
 }
 
 fn stop(reason: String) -> Error {
-    Error::Bed { step: 0, reason }
+    Error::Bodies { reason }
 }

@@ -195,7 +195,7 @@ impl Solid {
     /// parry's shape, with lengths in `unit` (m).
     ///
     /// # Errors
-    /// [`Error::Bed`] for a mesh without triangles or with a corner that does not exist.
+    /// [`Error::Bodies`] for a mesh without triangles or with a corner that does not exist.
     pub fn shape(&self, unit: f64) -> Result<SharedShape> {
         Ok(match self {
             Solid::Cuboid(half) => {
@@ -217,8 +217,7 @@ impl Solid {
                     | TriMeshFlags::DELETE_DEGENERATE_TRIANGLES
                     | TriMeshFlags::DELETE_DUPLICATE_TRIANGLES;
                 SharedShape::trimesh_with_flags(vertices, triangles.clone(), flags).map_err(
-                    |e| Error::Bed {
-                        step: 0,
+                    |e| Error::Bodies {
                         reason: format!(
                             "a triangle mesh is broken ({e}); repair the file that holds it"
                         ),

@@ -176,7 +176,10 @@ impl<C: ContactLaw> Bed<C> {
             || mover.kick_and_drift(grains, moved),
             bodies,
         );
-        stepped.map_err(|_| self.broken("a body"))?;
+        stepped.map_err(|body| {
+            let name = &self.machine.bodies()[body].name;
+            self.broken(&format!("the body \"{name}\""))
+        })?;
         self.time += self.dt;
         self.step += 1;
         self.fresh = false;

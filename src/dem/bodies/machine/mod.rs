@@ -9,8 +9,8 @@ mod joint;
 
 pub use drive::BodyState;
 
+use crate::Result;
 use crate::dem::bodies::{Body, Freedom, Mobility};
-use crate::{Error, Result};
 use drive::{Drive, Mode};
 use joint::Tie;
 use parry3d::math::{Pose, Vector};
@@ -78,7 +78,7 @@ impl Machine {
     /// Puts `bodies` into a world with `gravity` (m/s2); `unit` (m) is a grain radius.
     ///
     /// # Errors
-    /// [`Error::Bed`] for a broken mesh.
+    /// As [`crate::dem::bodies::Solid::shape`].
     pub fn new(bodies: Vec<Body>, gravity: Vector, unit: f64) -> Result<Self> {
         let mut world = PhysicsWorld::new();
         world.gravity = gravity / unit;
@@ -104,9 +104,8 @@ impl Machine {
         Ok(machine)
     }
 
-    fn add(&mut self, body: Body) -> Result<()> {
-        let shape = body.solid.shape(self.unit)?;
-        let pose = Pose::from_parts(body.centre / self.unit, body.rotation);
+    /// rapier's body for `body` of this shape.
+    fn builder(&self, body: &Body, shape: &SharedShape) -> RigidBodyBuilder {
         let builder = match body.mobility {
             Mobility::Fixed => RigidBodyBuilder::fixed(),
             Mobility::Driven(_) => RigidBodyBuilder::kinematic_velocity_based(),
@@ -124,10 +123,13 @@ impl Machine {
                     .angvel(spin)
             }
         };
-        let builder = builder
-            .pose(pose)
-            .can_sleep(false)
-            .allow_fast_rotation(true);
+        builder.can_sleep(false).allow_fast_rotation(true)
+    }
+
+    fn add(&mut self, body: Body) -> Result<()> {
+        let shape = body.solid.shape(self.unit)?;
+        let pose = Pose::from_parts(body.centre / self.unit, body.rotation);
+        let builder = self.builder(&body, &shape).pose(pose);
         let collider = ColliderBuilder::new(shape.clone())
             .density(0.0)
             .collision_groups(InteractionGroups::none())
@@ -185,8 +187,8 @@ impl Machine {
     /// Moves every body on by `dt` (s) under the loads of the grains.
     ///
     /// # Errors
-    /// [`Error::Bed`] when a body's place is no longer a number.
-    pub fn step(&mut self, loads: &[Load], dt: f64) -> Result<()> {
+    /// The index of a body whose place is no longer a number.
+    pub fn step(&mut self, loads: &[Load], dt: f64) -> std::result::Result<(), usize> {
         self.steer(loads, dt);
         self.time += dt;
         if self.at_rest() {
@@ -207,13 +209,11 @@ impl Machine {
         self.world.integration_parameters.dt = dt;
         self.world.step();
         self.motors += self.motor_work(&before);
-        if self.world.quarantine().is_empty() {
-            Ok(())
-        } else {
-            Err(Error::Bed {
-                step: 0,
-                reason: "a body's place is no longer a number; reduce the time step".to_owned(),
-            })
+        let broken =
+            |handle: &RigidBodyHandle| !self.world.bodies[*handle].translation().is_finite();
+        match self.world.quarantine().is_empty() {
+            true => Ok(()),
+            false => Err(self.handles.iter().position(broken).unwrap_or(0)),
         }
     }
 
