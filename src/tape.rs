@@ -7,7 +7,7 @@ use crate::lanes::{Lanes, WIDTH};
 
 mod checkpoint;
 
-pub use checkpoint::{Checkpoint, Keeper, TakenUp};
+pub use checkpoint::{Checkpoint, Keeper, TakenUp, VERSION};
 
 /// Numbers written one after the other, and read back in the same order.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -252,22 +252,42 @@ impl Keep for Lanes {
     }
 }
 
-/// Keep a structure by some of its fields, in the order given: `keep_fields!(Type: a, b)`, or with generics
-/// `keep_fields!(impl [T: Keep] Type<T>: a, b)`.
+/// Keeps a structure by its fields, in the order given: `keep_fields!(Type: a, b)`, or with generics
+/// `keep_fields!(impl [T: Keep] Type<T>: a, b)`. Fields that are built again, from the scene or the plan, are named behind:
+/// `keep_fields!(Type: a, b; rebuilt c)`. A field that is not named at all does not compile.
+///
+/// Around the structure itself, all of its fields are kept: `keep_fields! { struct Type { a: f64, b: u64 } }`.
 macro_rules! keep_fields {
-    (impl [$($generics:tt)*] $structure:ty: $($field:ident),+ $(,)?) => {
+    (
+        $(#[$attribute:meta])*
+        $visibility:vis struct $structure:ident {
+            $($(#[$note:meta])* $seen:vis $field:ident: $kind:ty,)+
+        }
+    ) => {
+        $(#[$attribute])*
+        $visibility struct $structure {
+            $($(#[$note])* $seen $field: $kind,)+
+        }
+        $crate::tape::keep_fields!($structure: $($field),+);
+    };
+    (
+        impl [$($generics:tt)*] $structure:ty:
+        $($field:ident),+ $(,)? $(; rebuilt $($rebuilt:ident),+ $(,)?)?
+    ) => {
         impl<$($generics)*> $crate::tape::Keep for $structure {
             fn save(&self, tape: &mut $crate::tape::Tape) {
-                $(self.$field.save(tape);)+
+                let Self { $($field,)+ $($($rebuilt: _,)+)? } = self;
+                $($field.save(tape);)+
             }
             fn load(&mut self, tape: &mut $crate::tape::Tape) -> Option<()> {
-                $(self.$field.load(tape)?;)+
+                let Self { $($field,)+ $($($rebuilt: _,)+)? } = self;
+                $($field.load(tape)?;)+
                 Some(())
             }
         }
     };
-    ($structure:ty: $($field:ident),+ $(,)?) => {
-        $crate::tape::keep_fields!(impl [] $structure: $($field),+);
+    ($structure:ty: $($field:ident),+ $(,)? $(; rebuilt $($rebuilt:ident),+ $(,)?)?) => {
+        $crate::tape::keep_fields!(impl [] $structure: $($field),+ $(; rebuilt $($rebuilt),+)?);
     };
 }
 pub(crate) use keep_fields;

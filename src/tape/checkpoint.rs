@@ -7,6 +7,11 @@ use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+/// Version of what checkpoints hold: to be raised whenever a kept structure changes.
+pub const VERSION: u64 = 2;
+/// First bytes of a checkpoint; the first version had none.
+const MAGIC: [u8; 8] = *b"impactlw";
+
 /// Where a run is kept while it is under way.
 #[derive(Debug, Clone)]
 pub struct Checkpoint {
@@ -31,9 +36,10 @@ impl Checkpoint {
     }
 }
 
-/// What a checkpoint's file holds: nothing, a run of another plan or program, or a run and the seconds it had taken.
+/// What a checkpoint's file holds: nothing, a run of another version, plan or program, or a run and the seconds it had taken.
 enum Found {
     Nothing,
+    Version(u64),
     Other,
     Run(Tape, f64),
 }
@@ -43,6 +49,8 @@ enum Found {
 pub enum TakenUp {
     /// There was none.
     Nothing,
+    /// There was one whose contents are of this other version.
+    Version(u64),
     /// There was one of another plan or program.
     Other,
     /// There was one that does not fit: the file is damaged.
@@ -96,6 +104,8 @@ impl<'a> Keeper<'a> {
     /// [`crate::Error::File`] when the file cannot be written.
     pub fn keep(&mut self, run: &impl Keep) -> Result<()> {
         let mut tape = Tape::default();
+        MAGIC.save(&mut tape);
+        VERSION.save(&mut tape);
         self.key.save(&mut tape);
         (self.before + self.started.elapsed().as_secs_f64()).save(&mut tape);
         run.save(&mut tape);
@@ -122,6 +132,7 @@ impl<'a> Keeper<'a> {
     pub fn take_up_into(&mut self, run: &mut impl Keep) -> TakenUp {
         match self.find() {
             Found::Nothing => TakenUp::Nothing,
+            Found::Version(version) => TakenUp::Version(version),
             Found::Other => TakenUp::Other,
             Found::Run(mut tape, seconds) => {
                 if run.load(&mut tape).is_none() || !tape.is_at_end() {
@@ -139,6 +150,14 @@ impl<'a> Keeper<'a> {
             return Found::Nothing;
         };
         let mut tape = Tape::from_bytes(bytes);
+        let (mut magic, mut version) = ([0u8; 8], 0u64);
+        let read = magic.load(&mut tape).is_some() && version.load(&mut tape).is_some();
+        if !read || magic != MAGIC {
+            return Found::Version(1);
+        }
+        if version != VERSION {
+            return Found::Version(version);
+        }
         let (mut key, mut seconds) = ([0u64; 4], 0.0);
         let read = key.load(&mut tape).is_some() && seconds.load(&mut tape).is_some();
         match read && key == self.key {
@@ -190,6 +209,23 @@ mod tests {
         assert_eq!(fresh, run());
         again.forget();
         assert!(!again.take_up(&mut fresh));
+    }
+
+    #[test]
+    fn a_file_of_another_version_is_told_by_its_version() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("c.bin");
+        let checkpoint = Checkpoint::new(&path, Duration::ZERO);
+        let mut keeper = Keeper::new(&checkpoint, "plan");
+        keeper.keep(&run()).unwrap();
+        let bytes = std::fs::read(&path).unwrap();
+        let later = [&MAGIC[..], &9u64.to_le_bytes(), &bytes[16..]].concat();
+        for (file, version) in [(&later[..], 9), (&bytes[16..], 1), (b"short", 1)] {
+            std::fs::write(&path, file).unwrap();
+            let mut fresh = Run::default();
+            assert_eq!(keeper.take_up_into(&mut fresh), TakenUp::Version(version));
+            assert_eq!(fresh, Run::default());
+        }
     }
 
     #[test]

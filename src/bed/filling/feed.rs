@@ -36,7 +36,7 @@ pub struct Feed {
     /// One for each group of the scene.
     pub inflows: Vec<Inflow>,
 }
-keep_fields!(Feed: inflows);
+keep_fields!(Feed: inflows; rebuilt seed, sources);
 
 impl Feed {
     /// Nothing has come in; groups that no stage inserts are active.

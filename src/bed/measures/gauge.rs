@@ -63,8 +63,8 @@ pub struct Plunge {
     peak: [f64; 2],
 }
 
-keep_fields!(Flow: series, first, last, grains, bulk);
-keep_fields!(Plunge: touched, speed, depth, peak);
+keep_fields!(Flow: series, first, last, grains, bulk; rebuilt plane);
+keep_fields!(Plunge: touched, speed, depth, peak; rebuilt body);
 
 /// What a gauge has read; what it is follows from the scene.
 impl Keep for Gauge {

@@ -7,6 +7,7 @@ use crate::material::Material;
 use crate::tape::keep_fields;
 use serde::Serialize;
 
+keep_fields! {
 /// One instant of a bed. Field names are the header of `bed.csv`.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Row {
@@ -77,7 +78,7 @@ pub struct Row {
     #[serde(rename = "imbalance_J")]
     pub imbalance_j: f64,
 }
-keep_fields!(Row: stage, time_s, step, time_step_s, height_m, strain, stress_pa, lateral_stress_pa, virial_stress_pa, coordination, solid_fraction, max_overlap_ratio, beyond_validity, max_speed_m_s, inertial_number, kinetic_j, potential_j, elastic_j, springs_j, friction_j, rolling_j, damping_j, plastic_j, driven_work_j, stiffening_work_j, imbalance_j);
+}
 
 /// What a row needs beside the bed.
 #[derive(Debug, Clone, Copy)]

@@ -43,7 +43,8 @@ pub struct Record {
     /// Frames of the dump so far.
     dumped: usize,
 }
-keep_fields!(Record: stage, rows, frames, film, stress, bodies, dumped);
+keep_fields!(Record: stage, rows, frames, film, stress, bodies, dumped;
+    rebuilt folder, provenance, settings);
 
 impl Record {
     /// Nothing yet; files will be in `folder` and CSV files begin with `provenance`.

@@ -18,7 +18,7 @@ pub struct Frames {
     folder: PathBuf,
     times: Vec<f64>,
 }
-keep_fields!(Frames: times);
+keep_fields!(Frames: times; rebuilt folder);
 
 impl Frames {
     /// Frames in `folder`, none yet.

@@ -24,7 +24,7 @@ use crate::dem::force::named::Constants;
 use crate::dem::grains::Grains;
 use crate::files::write_rows;
 use crate::law::{AnyLaw, LawFile};
-use crate::tape::{Checkpoint, Keeper, TakenUp};
+use crate::tape::{Checkpoint, Keeper, TakenUp, VERSION};
 use crate::{Error, Result};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -246,6 +246,13 @@ fn go<'a>(
             TakenUp::Run => tracing::info!("resumed at step {} from {path}", run.bed.clock().2),
             TakenUp::Other => {
                 tracing::warn!("{path} is of another scene, law, seed or program: started anew");
+            }
+            TakenUp::Version(version) => {
+                let other = format!(
+                    "it is of version {version} of the restart files, this program has version {VERSION}; remove it to start anew"
+                );
+                let cause = std::io::Error::new(std::io::ErrorKind::InvalidData, other);
+                return Err(Error::file("resume from", checkpoint.path())(cause));
             }
             TakenUp::Damaged => {
                 let damaged = "it is damaged; remove it to start anew";

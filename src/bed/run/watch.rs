@@ -20,7 +20,7 @@ pub struct Watch<'a> {
     pub deepest: Option<Frame>,
     progress: &'a (dyn Fn(&str, &Row) + Sync),
 }
-keep_fields!(impl [] Watch<'_>: record, deepest);
+keep_fields!(impl [] Watch<'_>: record, deepest; rebuilt name, progress);
 
 impl<'a> Watch<'a> {
     /// Watch on the run called `name`, whose files go into `folder`.

@@ -140,7 +140,7 @@ pub struct Run<'a> {
     keeper: Option<Keeper<'a>>,
 }
 keep_fields!(impl [] Run<'_>: bed, rows, tally, feed, gauges, observer, progress, place, started, softening,
-    ended);
+    ended; rebuilt terms, room, keeper);
 
 /// What a run leaves when its stages have ended.
 pub struct Done {

@@ -70,7 +70,7 @@ pub struct Film {
     folder: PathBuf,
     count: usize,
 }
-keep_fields!(Film: count);
+keep_fields!(Film: count; rebuilt folder);
 
 impl Film {
     /// No frames yet; they will be files in `folder`.

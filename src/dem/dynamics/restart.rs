@@ -25,7 +25,7 @@ keep_fields!(Slider: load, compliance);
 keep_fields!(Sphere: centre, radius);
 keep_fields!(Motion: velocity, inverse_mass);
 keep_fields!(Spin: rate, inverse_inertia);
-keep_fields!(Grains: spheres, motions, spins, plastic, ids, materials);
+keep_fields!(Grains: spheres, motions, spins, plastic, ids, materials; rebuilt room);
 keep_fields!(Losses: friction, rolling, damping);
 keep_fields!(impl [D: Keep, T: Keep, R: Keep] Memory<D, T, R>: damping, tangential, rolling, work);
 keep_fields!(Push: force, couple, arms);
@@ -41,64 +41,110 @@ const UNKNOWN: fn(usize) -> [u8; 2] = |_| [RIGID; 2];
 
 impl<C: ContactLaw> Keep for Contacts<C> {
     fn save(&self, tape: &mut Tape) {
-        self.list.save(tape);
-        tape.save_few(&self.memory);
-        tape.save_few(&self.pushes);
-        self.histories.iter().for_each(|chunk| chunk.save(tape));
-        self.chunks.save(tape);
-        self.spent.save(tape);
+        let Self {
+            list,
+            memory,
+            pushes,
+            histories,
+            chunks,
+            spent,
+            touching: _,
+            model: _,
+        } = self;
+        list.save(tape);
+        tape.save_few(memory);
+        tape.save_few(pushes);
+        histories.iter().for_each(|chunk| chunk.save(tape));
+        chunks.save(tape);
+        spent.save(tape);
     }
 
     fn load(&mut self, tape: &mut Tape) -> Option<()> {
-        self.list.load(tape)?;
-        self.memory = vec![C::Memory::default(); self.list.pairs.len()];
-        tape.load_few(&mut self.memory)?;
-        self.pushes = vec![Push::default(); self.list.pairs.len()];
-        tape.load_few(&mut self.pushes)?;
-        self.touching = self.pushes.iter().map(Push::touches).collect();
-        let none = vec![None; self.list.pairs.len()];
-        self.histories = self.model.chunks(&[], &none, PAIRS, &UNKNOWN);
-        self.histories
+        let Self {
+            list,
+            memory,
+            pushes,
+            histories,
+            chunks,
+            spent,
+            touching,
+            model,
+        } = self;
+        list.load(tape)?;
+        let pairs = list.pairs.len();
+        *memory = vec![C::Memory::default(); pairs];
+        tape.load_few(memory)?;
+        *pushes = vec![Push::default(); pairs];
+        tape.load_few(pushes)?;
+        *touching = pushes.iter().map(Push::touches).collect();
+        *histories = model.chunks(&[], &vec![None; pairs], PAIRS, &UNKNOWN);
+        histories
             .iter_mut()
             .try_for_each(|chunk| chunk.load(tape))?;
-        self.chunks.load(tape)?;
-        self.spent.load(tape)
+        chunks.load(tape)?;
+        spent.load(tape)
     }
 }
 
 impl<C: ContactLaw> Keep for Surfaces<C> {
     fn save(&self, tape: &mut Tape) {
-        self.solids.save(tape);
-        self.meshes.save(tape);
+        let Self {
+            solids,
+            meshes,
+            model: _,
+        } = self;
+        solids.save(tape);
+        meshes.save(tape);
     }
 
     fn load(&mut self, tape: &mut Tape) -> Option<()> {
-        self.solids.load(&*self.model, tape)?;
-        self.meshes.load(&*self.model, tape)
+        let Self {
+            solids,
+            meshes,
+            model,
+        } = self;
+        solids.load(&**model, tape)?;
+        meshes.load(&**model, tape)
     }
 }
 
 impl<C: ContactLaw, const K: usize> Family<C, K> {
     fn save(&self, tape: &mut Tape) {
-        self.candidates.save(tape);
-        self.start.save(tape);
-        self.patches.save(tape);
-        self.histories.iter().for_each(|chunk| chunk.save(tape));
-        self.tallies.save(tape);
-        self.spent.save(tape);
+        let Self {
+            candidates,
+            start,
+            patches,
+            histories,
+            tallies,
+            spent,
+        } = self;
+        candidates.save(tape);
+        start.save(tape);
+        patches.save(tape);
+        histories.iter().for_each(|chunk| chunk.save(tape));
+        tallies.save(tape);
+        spent.save(tape);
     }
 
     fn load(&mut self, model: &dyn NormalModel, tape: &mut Tape) -> Option<()> {
-        self.candidates.load(tape)?;
-        self.start.load(tape)?;
-        self.patches.load(tape)?;
-        let none = vec![None; self.patches.len()];
-        self.histories = model.chunks(&[], &none, CANDIDATES * K, &UNKNOWN);
-        self.histories
+        let Self {
+            candidates,
+            start,
+            patches,
+            histories,
+            tallies,
+            spent,
+        } = self;
+        candidates.load(tape)?;
+        start.load(tape)?;
+        patches.load(tape)?;
+        let none = vec![None; patches.len()];
+        *histories = model.chunks(&[], &none, CANDIDATES * K, &UNKNOWN);
+        histories
             .iter_mut()
             .try_for_each(|chunk| chunk.load(tape))?;
-        self.tallies.load(tape)?;
-        self.spent.load(tape)
+        tallies.load(tape)?;
+        spent.load(tape)
     }
 }
 
@@ -121,36 +167,70 @@ impl Keep for Machine {
 
 impl<C: ContactLaw> Keep for Bed<C> {
     fn save(&self, tape: &mut Tape) {
-        self.grains.save(tape);
-        self.machine.save(tape);
-        self.law.softening().save(tape);
-        self.contacts.save(tape);
-        self.surfaces.save(tape);
-        self.dt.save(tape);
-        self.time.save(tape);
-        self.step.save(tape);
-        self.loads.save(tape);
-        self.before.save(tape);
-        self.outside.save(tape);
-        self.listed.save(tape);
-        self.fresh.save(tape);
+        let Self {
+            grains,
+            machine,
+            law,
+            contacts,
+            surfaces,
+            dt,
+            time,
+            step,
+            loads,
+            before,
+            outside,
+            listed,
+            fresh,
+            gravity: _,
+            skin: _,
+        } = self;
+        grains.save(tape);
+        machine.save(tape);
+        law.softening().save(tape);
+        contacts.save(tape);
+        surfaces.save(tape);
+        dt.save(tape);
+        time.save(tape);
+        step.save(tape);
+        loads.save(tape);
+        before.save(tape);
+        outside.save(tape);
+        listed.save(tape);
+        fresh.save(tape);
     }
 
     fn load(&mut self, tape: &mut Tape) -> Option<()> {
-        self.grains.load(tape)?;
-        self.machine.load(tape)?;
+        let Self {
+            grains,
+            machine,
+            law,
+            contacts,
+            surfaces,
+            dt,
+            time,
+            step,
+            loads,
+            before,
+            outside,
+            listed,
+            fresh,
+            gravity: _,
+            skin: _,
+        } = self;
+        grains.load(tape)?;
+        machine.load(tape)?;
         let mut softening = 1.0;
         softening.load(tape)?;
-        self.law.soften(softening);
-        Keep::load(&mut self.contacts, tape)?;
-        Keep::load(&mut self.surfaces, tape)?;
-        self.dt.load(tape)?;
-        self.time.load(tape)?;
-        self.step.load(tape)?;
-        self.loads.load(tape)?;
-        self.before.load(tape)?;
-        self.outside.load(tape)?;
-        self.listed.load(tape)?;
-        self.fresh.load(tape)
+        law.soften(softening);
+        Keep::load(contacts, tape)?;
+        Keep::load(surfaces, tape)?;
+        dt.load(tape)?;
+        time.load(tape)?;
+        step.load(tape)?;
+        loads.load(tape)?;
+        before.load(tape)?;
+        outside.load(tape)?;
+        listed.load(tape)?;
+        fresh.load(tape)
     }
 }

@@ -24,11 +24,25 @@ pub struct PointView {
 
 impl<S: Space, M: Constitutive<S>, const N: usize> Keep for Points<S, M, N> {
     fn save(&self, tape: &mut Tape) {
-        self.states.as_slice().save(tape);
-        self.clock.save(tape);
-        let left = self.cells.iter().map(|c| (c.first, (c.strength, c.moved)));
+        let Self {
+            states,
+            cells,
+            levels,
+            clock,
+            offsets: _,
+            factors: _,
+            volumes: _,
+            scratch: _,
+            partial: _,
+            cold: _,
+            material: _,
+            own_volume: _,
+        } = self;
+        states.as_slice().save(tape);
+        clock.save(tape);
+        let left = cells.iter().map(|c| (c.first, (c.strength, c.moved)));
         left.collect::<Vec<_>>().save(tape);
-        let ends: Vec<usize> = self.levels.iter().map(|l| l.end).collect();
+        let ends: Vec<usize> = levels.iter().map(|l| l.end).collect();
         ends.save(tape);
     }
 

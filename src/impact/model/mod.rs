@@ -37,7 +37,8 @@ pub struct Model<S: Space, M: Constitutive<S>, W: Wall<S>, const N: usize> {
     pub markers: [Vec<(usize, f64)>; 3],
 }
 
-keep_fields!(impl [S: Space, M: Constitutive<S>, W: Wall<S>, const N: usize] Model<S, M, W, N>: points, contact);
+keep_fields!(impl [S: Space, M: Constitutive<S>, W: Wall<S>, const N: usize] Model<S, M, W, N>: points, contact;
+    rebuilt mass, recip_mass, places, copies, markers);
 
 /// Model of the axisymmetric section.
 pub type AxisymmetricModel<M, const N: usize> = Model<Axisymmetric, M, Contact<Axisymmetric, N>, N>;

@@ -56,7 +56,8 @@ keep_fields!(
     impl [S: Space, M: Constitutive<S>, W: Wall<S>, T: Remap<S::Vector>, const N: usize]
     Run<'_, S, M, W, T, N>:
     model, transfer, transferred, u, v, limit, local, dt, time, step, stepped, next_refresh, next_output, impulse, tangential,
-    contact_work, plastic, contact_radius, contact_end, frames, closure, compressed, erosion, start,
+    contact_work, plastic, contact_radius, contact_end, frames, closure, compressed, erosion, start;
+    rebuilt plan, speed, old, force, blocks, mass, failure,
 );
 
 /// A run in progress.

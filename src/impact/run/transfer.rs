@@ -55,7 +55,7 @@ struct Carrier<const N: usize> {
     velocity: [f64; 3],
 }
 
-keep_fields!(impl [const N: usize] Carrier<N>: velocity);
+keep_fields!(impl [const N: usize] Carrier<N>: velocity; rebuilt node, values, mass);
 
 /// The points of a run and their way to the nodes.
 #[derive(Debug, Clone)]
@@ -110,18 +110,30 @@ impl<V: Copy + Default + AsRef<[f64]> + AsMut<[f64]>, const N: usize> Carriers<V
 
 impl<V: Keep, const N: usize> Keep for Carriers<V, N> {
     fn save(&self, tape: &mut Tape) {
-        self.carriers.as_slice().save(tape);
-        self.travel.as_slice().save(tape);
+        let Self {
+            carriers,
+            travel,
+            offsets: _,
+            mapped: _,
+        } = self;
+        carriers.as_slice().save(tape);
+        travel.as_slice().save(tape);
     }
 
     fn load(&mut self, tape: &mut Tape) -> Option<()> {
-        self.carriers.as_mut_slice().load(tape)?;
-        self.travel.as_mut_slice().load(tape)
+        let Self {
+            carriers,
+            travel,
+            offsets: _,
+            mapped: _,
+        } = self;
+        carriers.as_mut_slice().load(tape)?;
+        travel.as_mut_slice().load(tape)
     }
 }
 
-keep_fields!(impl [V: Keep, const N: usize] Blend<V, N>: carriers);
-keep_fields!(impl [V: Keep, const N: usize] Apic<V, N>: carriers);
+keep_fields!(impl [V: Keep, const N: usize] Blend<V, N>: carriers; rebuilt flip);
+keep_fields!(impl [V: Keep, const N: usize] Apic<V, N>: carriers; rebuilt arms);
 
 /// The transfer a plan asks for, chosen once a step: the loops over points are those of the variants, and the solver
 /// around them is compiled once for all.

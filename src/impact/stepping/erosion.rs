@@ -41,7 +41,7 @@ pub struct Erosion {
     energy: f64,
 }
 
-keep_fields!(Erosion: first, volume, energy);
+keep_fields!(Erosion: first, volume, energy; rebuilt least);
 
 impl Erosion {
     /// Nothing eroded yet; `least`: shortest stable step accepted over that of the undeformed body, 0 to erode nothing.

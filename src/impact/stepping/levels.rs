@@ -40,7 +40,7 @@ pub struct Level<S: Space, W> {
     kept: Range<usize>,
 }
 
-keep_fields!(impl [S: Space, W: Wall<S>] Level<S, W>: limit, contact);
+keep_fields!(impl [S: Space, W: Wall<S>] Level<S, W>: limit, contact; rebuilt force, old, kept);
 
 /// Levels of a run.
 #[derive(Debug, Clone)]
@@ -58,17 +58,31 @@ pub struct LocalStep<S: Space, W> {
 
 impl<S: Space, W: Wall<S>> Keep for LocalStep<S, W> {
     fn save(&self, tape: &mut Tape) {
-        self.first.save(tape);
-        self.steps.save(tape);
-        self.age.save(tape);
-        self.levels.as_slice().save(tape);
+        let Self {
+            first,
+            steps,
+            age,
+            levels,
+            share: _,
+        } = self;
+        first.save(tape);
+        steps.save(tape);
+        age.save(tape);
+        levels.as_slice().save(tape);
     }
 
     fn load(&mut self, tape: &mut Tape) -> Option<()> {
-        self.first.load(tape)?;
-        self.steps.load(tape)?;
-        self.age.load(tape)?;
-        self.levels.as_mut_slice().load(tape)
+        let Self {
+            first,
+            steps,
+            age,
+            levels,
+            share: _,
+        } = self;
+        first.load(tape)?;
+        steps.load(tape)?;
+        age.load(tape)?;
+        levels.as_mut_slice().load(tape)
     }
 }
 

@@ -31,7 +31,7 @@ pub struct StabilityLimit<S: Space> {
     force: Vec<S::Vector>,
 }
 
-keep_fields!(impl [S: Space] StabilityLimit<S>: mode);
+keep_fields!(impl [S: Space] StabilityLimit<S>: mode; rebuilt last, rest, moved, force);
 
 impl<S: Space> StabilityLimit<S> {
     /// Estimator for `nodes` nodes.

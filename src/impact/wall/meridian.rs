@@ -53,19 +53,41 @@ struct ContactPoint<const N: usize> {
     active: bool,
 }
 
-keep_fields!(impl [const N: usize] ContactPoint<N>: impulse, active);
+keep_fields!(impl [const N: usize] ContactPoint<N>: impulse, active; rebuilt node, values, height, radius, free);
 
 impl<S: Space, const N: usize> Keep for Contact<S, N> {
     fn save(&self, tape: &mut Tape) {
-        self.points.as_slice().save(tape);
-        self.candidates.save(tape);
-        self.time.save(tape);
+        let Self {
+            points,
+            candidates,
+            time,
+            offsets: _,
+            coupling: _,
+            system: _,
+            right: _,
+            tolerance: _,
+            space: _,
+        } = self;
+        points.as_slice().save(tape);
+        candidates.save(tape);
+        time.save(tape);
     }
 
     fn load(&mut self, tape: &mut Tape) -> Option<()> {
-        self.points.as_mut_slice().load(tape)?;
-        self.candidates.load(tape)?;
-        self.time.load(tape)
+        let Self {
+            points,
+            candidates,
+            time,
+            offsets: _,
+            coupling: _,
+            system: _,
+            right: _,
+            tolerance: _,
+            space: _,
+        } = self;
+        points.as_mut_slice().load(tape)?;
+        candidates.load(tape)?;
+        time.load(tape)
     }
 }
 

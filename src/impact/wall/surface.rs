@@ -98,7 +98,8 @@ pub struct Patch<F: Friction, const N: usize> {
     sweeps: u64,
 }
 
-keep_fields!(impl [F: Friction, const N: usize] Patch<F, N>: free, impulses, remembered, candidates, time, sweeps);
+keep_fields!(impl [F: Friction, const N: usize] Patch<F, N>: free, impulses, remembered, candidates, time, sweeps;
+    rebuilt friction, offsets, nodes, values, places, starts, columns, normal, tangential, diagonal, tolerance);
 
 impl<F: Friction, const N: usize> Patch<F, N> {
     /// No points yet; `tolerance` is the speed below which a violation counts as solved.
