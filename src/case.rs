@@ -8,6 +8,8 @@ use crate::{Error, Result};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 
+mod slips;
+
 /// A checked case, SI units. Read with [`Case::read`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Case {
@@ -37,6 +39,8 @@ pub struct Case {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct CaseFile {
+    #[serde(default)]
+    unusual: Vec<String>,
     particle: ParticleTable,
     material: MaterialTable,
     impact: ImpactTable,
@@ -121,7 +125,7 @@ impl Case {
     ///
     /// # Errors
     /// [`Error::Syntax`] for an unknown or missing key or a value without unit, [`Error::Value`] for a value out of
-    /// range; both name key, what was found and what is allowed.
+    /// range or one that looks like a slip of its unit and is not named in `unusual`; both name key, what was found and what is allowed.
     pub fn parse(text: &str, path: &Path) -> Result<Self> {
         Self::from_document(&Document::new(path, text))
     }
@@ -132,7 +136,8 @@ impl Case {
     /// As [`Case::parse`].
     pub fn from_document(document: &Document) -> Result<Self> {
         let file: CaseFile = document.parse()?;
-        Ok(Case {
+        let written: Vec<f64> = file.impact.velocities.iter().map(|v| v.si()).collect();
+        let case = Case {
             name: document.name(),
             path: document.path().to_owned(),
             hash: document.hash(),
@@ -151,7 +156,9 @@ impl Case {
                 "must lie in (0, 0.2], e.g. 0.02 for two per cent",
             )?,
             bed: file.bed.map(|bed| bed.check(document)).transpose()?,
-        })
+        };
+        slips::check(&case, &written, document, &file.unusual)?;
+        Ok(case)
     }
 
     /// The case with the speeds of `--velocity`, when any are given.
@@ -167,18 +174,20 @@ impl Case {
             found: format!("\"{text}\""),
             allowed: allowed.to_owned(),
         };
-        self.velocities.clear();
+        let mut velocities = Vec::new();
         for text in texts {
             let velocity = unit::argument::<Velocity>("--velocity", text)?;
             if velocity <= 0.0 {
                 return Err(reject(text, "must be positive, e.g. \"10 m/s\""));
             }
-            if self.velocities.contains(&velocity) {
+            if velocities.contains(&velocity) {
                 return Err(reject(text, "must be given once"));
             }
-            self.velocities.push(velocity);
+            slips::check_argument(&self, velocity, text)?;
+            velocities.push(velocity);
         }
-        self.velocities.sort_by(f64::total_cmp);
+        velocities.sort_by(f64::total_cmp);
+        self.velocities = velocities;
         Ok(self)
     }
 }

@@ -1,6 +1,9 @@
 //! Curve of one impact: time series and summary, in memory and as the files `curve.csv` and `summary.json`.
 
 use crate::files::{write_atomic, write_rows};
+use crate::material::flow::{FlowConstants, InSi, WithFlow};
+use crate::material::{Flow, Material};
+use crate::unit::engineering;
 use crate::{Error, Result};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -97,8 +100,127 @@ pub struct Summary {
     /// What happened along the wall; absent from normal impacts on a frictionless wall.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tangential: Option<Tangential>,
+    /// Whose impact it is; absent from files of versions before 0.2.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub particle: Option<Particle>,
     /// How the run ended.
     pub status: Status,
+}
+
+/// Particle that an impact belongs to (table `particle` of `summary.json`).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(from = "WithFlow<ElasticParticle, InSi>")]
+pub struct Particle {
+    /// R, m.
+    pub radius_m: f64,
+    /// rho, kg/m3.
+    pub density_kg_m3: f64,
+    /// E, Pa.
+    #[serde(rename = "young_modulus_Pa")]
+    pub young_modulus_pa: f64,
+    /// nu.
+    pub poisson_ratio: f64,
+    /// Constants of the flow stress; none for an elastic body.
+    #[serde(flatten)]
+    pub flow: FlowConstants<InSi>,
+}
+
+/// The keys of `particle` besides the constants of the flow stress.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ElasticParticle {
+    radius_m: f64,
+    density_kg_m3: f64,
+    #[serde(rename = "young_modulus_Pa")]
+    young_modulus_pa: f64,
+    poisson_ratio: f64,
+}
+
+impl From<WithFlow<ElasticParticle, InSi>> for Particle {
+    fn from(table: WithFlow<ElasticParticle, InSi>) -> Self {
+        let WithFlow { others, flow } = table;
+        Particle {
+            radius_m: others.radius_m,
+            density_kg_m3: others.density_kg_m3,
+            young_modulus_pa: others.young_modulus_pa,
+            poisson_ratio: others.poisson_ratio,
+            flow,
+        }
+    }
+}
+
+/// Restitution below which errors of e are counted over it: e^2 is the share of the energy that comes back, here a hundredth, and
+/// what a body rings with at loss of contact is nearly as large.
+pub const LEAST_RESTITUTION: f64 = 0.1;
+
+/// Error of the restitution `found` where `truth` is right, over `truth` or [`LEAST_RESTITUTION`]; so impacts that stick are
+/// data too.
+#[must_use]
+pub fn restitution_error(found: f64, truth: f64) -> f64 {
+    if truth >= LEAST_RESTITUTION {
+        found / truth - 1.0
+    } else {
+        (found - truth) / LEAST_RESTITUTION
+    }
+}
+
+/// Relative difference by which two particles may differ and be the same: what text does to numbers.
+const SAME: f64 = 1e-12;
+
+impl Particle {
+    /// A sphere of `radius` (m).
+    #[must_use]
+    pub fn of(material: &Material, radius: f64) -> Self {
+        let Material {
+            density,
+            young_modulus,
+            poisson_ratio,
+            flow,
+        } = material;
+        Particle {
+            radius_m: radius,
+            density_kg_m3: *density,
+            young_modulus_pa: *young_modulus,
+            poisson_ratio: *poisson_ratio,
+            flow: FlowConstants::of(flow.as_ref()),
+        }
+    }
+
+    /// What of `self` is not as in `other`, as names of figures with both values; empty when they are the same particle.
+    #[must_use]
+    pub fn differences(&self, other: &Particle) -> Vec<String> {
+        let figures = |p: &Particle| {
+            let own = p.flow.checked().map_or_else(Vec::new, |f| f.constants());
+            let mut all = vec![
+                ("radius".to_owned(), "m", Some(p.radius_m)),
+                ("density".to_owned(), "kg/m³", Some(p.density_kg_m3)),
+                ("young modulus".to_owned(), "Pa", Some(p.young_modulus_pa)),
+                ("poisson ratio".to_owned(), "", Some(p.poisson_ratio)),
+            ];
+            all.extend(Flow::all_constants().into_iter().map(|constant| {
+                let found = own.iter().find(|(c, _)| *c == constant);
+                let value = found.map(|(_, value)| *value);
+                (constant.name(), constant.dimension.unit(), value)
+            }));
+            all
+        };
+        let text = |value: Option<f64>, unit: &str| match value {
+            Some(value) => engineering(value, unit, 6).trim_end().to_owned(),
+            None => "none".to_owned(),
+        };
+        let same = |a: Option<f64>, b: Option<f64>| match (a, b) {
+            (Some(a), Some(b)) => (a - b).abs() <= SAME * a.abs().max(b.abs()),
+            (a, b) => a.is_none() && b.is_none(),
+        };
+        figures(self)
+            .into_iter()
+            .zip(figures(other))
+            .filter(|((_, _, a), (_, _, b))| !same(*a, *b))
+            .map(|((name, unit, a), (_, _, b))| {
+                format!("{name} {} instead of {}", text(a, unit), text(b, unit))
+            })
+            .collect()
+    }
 }
 
 /// Figures of an impact along the wall (table `tangential` of `summary.json`).
@@ -210,7 +332,7 @@ fn read_rows<T: serde::de::DeserializeOwned>(path: &Path) -> Result<Vec<T>> {
         .map_err(|e| Error::Syntax {
             path: path.to_owned(),
             message: e.to_string(),
-            span: None,
+            place: None,
         })
 }
 
@@ -273,7 +395,7 @@ impl Impact {
         let summary = serde_json::from_str(&text).map_err(|e| Error::Syntax {
             path: path.clone(),
             message: e.to_string(),
-            span: None,
+            place: None,
         })?;
         Ok(Impact {
             summary,

@@ -1,7 +1,7 @@
 //! Document: a TOML input file with its text, and errors that point into it.
 
 use crate::unit::Quantity;
-use crate::{Error, Result};
+use crate::{Error, Place, Result};
 use serde::de::DeserializeOwned;
 use sha2::{Digest, Sha256};
 use std::ops::Range;
@@ -76,15 +76,26 @@ impl Document {
     pub fn parse<T: DeserializeOwned>(&self) -> Result<T> {
         toml::from_str(&self.text).map_err(|error| {
             let span = error.span();
-            let key = span.as_ref().and_then(|span| self.key_at(span));
-            let message = error.message().trim_end().replace('\n', "; ");
+            let message = in_plain_words(&error.message().trim_end().replace('\n', "; "));
+            let missing = message.starts_with("missing field");
+            // what the whole file lacks belongs at its end, not to the table it begins with
+            let whole = |span: &Range<usize>| span.start == 0 || span.end >= self.text.len();
+            let (span, key) = match span {
+                Some(span) if missing && !self.is_table(&span) && whole(&span) => {
+                    (Some(self.text.len()..self.text.len()), None)
+                }
+                span => {
+                    let key = span.as_ref().and_then(|span| self.key_at(span));
+                    (span, key)
+                }
+            };
             Error::Syntax {
                 path: self.path.clone(),
                 message: match key {
                     Some(key) => format!("`{key}`: {message}"),
                     None => message,
                 },
-                span,
+                place: self.place(span),
             }
         })
     }
@@ -110,8 +121,17 @@ impl Document {
             key: key.to_owned(),
             found,
             allowed: allowed.into(),
-            span,
+            place: self.place(span),
         }
+    }
+
+    fn place(&self, span: Option<Range<usize>>) -> Option<Box<Place>> {
+        span.map(|span| {
+            Box::new(Place {
+                text: self.text.clone(),
+                span,
+            })
+        })
     }
 
     /// `value` if `holds`.
@@ -148,6 +168,17 @@ impl Document {
         self.check(key, quantity.si(), |v| v >= 0.0, "must not be negative")
     }
 
+    /// Whether a table, not the file as a whole, stands at exactly this place.
+    fn is_table(&self, place: &Range<usize>) -> bool {
+        let mut found = false;
+        if let Ok(table) = DeTable::parse(&self.text) {
+            visit_table(table.get_ref(), "", &mut |_, span, key_span| {
+                found |= span == *place || key_span == *place;
+            });
+        }
+        found
+    }
+
     /// Byte range of the value of a dotted key.
     fn span_of(&self, key: &str) -> Option<Range<usize>> {
         let table = DeTable::parse(&self.text).ok()?;
@@ -174,6 +205,56 @@ impl Document {
         });
         best.map(|(_, path)| path)
     }
+}
+
+/// A parser's message with what a file holds for the names of Rust's types.
+fn in_plain_words(message: &str) -> String {
+    const WORDS: [(&str, &str); 12] = [
+        ("expected f64", "expected a number"),
+        (
+            "expected usize",
+            "expected a whole number that is not negative",
+        ),
+        (
+            "expected u64",
+            "expected a whole number that is not negative",
+        ),
+        (
+            "expected u32",
+            "expected a whole number that is not negative",
+        ),
+        ("expected u8", "expected a whole number from 0 to 255"),
+        ("expected i64", "expected a whole number"),
+        ("expected i32", "expected a whole number"),
+        ("expected a sequence", "expected a list, [...]"),
+        ("expected a boolean", "expected true or false"),
+        ("expected a string", "expected a text, \"...\""),
+        ("expected a map", "expected a table"),
+        (
+            "did not match any variant of untagged enum",
+            "is of none of the kinds that",
+        ),
+    ];
+    let mut plain = message.to_owned();
+    for (of_rust, word) in WORDS {
+        plain = plain.replace(of_rust, word);
+    }
+    // "expected struct MaterialTable", "expected internally tagged enum Shape"
+    for kind in [
+        "struct ",
+        "internally tagged enum ",
+        "adjacently tagged enum ",
+        "enum ",
+    ] {
+        let begin = format!("expected {kind}");
+        while let Some(at) = plain.find(&begin) {
+            let name = plain[at + begin.len()..]
+                .find(|c: char| !c.is_alphanumeric() && c != '_')
+                .map_or(plain.len(), |end| at + begin.len() + end);
+            plain.replace_range(at..name, "expected a table");
+        }
+    }
+    plain
 }
 
 /// Called with the dotted key, the span of its value and the span of the key itself.
@@ -238,19 +319,17 @@ mod tests {
         let error = Document::new(Path::new("f.toml"), text)
             .parse::<File>()
             .unwrap_err();
-        let Error::Syntax { message, span, .. } = error else {
+        let Error::Syntax { message, place, .. } = error else {
             panic!("{error:?}")
         };
-        (message, span)
+        (message, place.map(|place| place.span))
     }
 
     #[test]
     fn a_bad_quantity_names_key_found_and_allowed() {
         let (text, span) = message("[particle]\nradius = \"3 kg\"\n");
-        assert_eq!(
-            text,
-            "`particle.radius`: found \"3 kg\"; must be a length with its unit, e.g. \"250 um\""
-        );
+        let said = "`particle.radius`: found \"3 kg\"; must be a length with its unit, e.g. \"250 um\" (units: nm,";
+        assert!(text.starts_with(said), "{text}");
         assert_eq!(span, Some(20..26));
         let (text, _) = message("[particle]\nradius = 3\n");
         assert!(
@@ -272,6 +351,42 @@ mod tests {
         assert!(text.contains("missing field `radius`"), "{text}");
         let (text, _) = message("[particle\n");
         assert!(!text.is_empty());
+    }
+
+    #[test]
+    fn a_missing_table_is_missed_at_the_end_and_not_blamed_on_the_first_one() {
+        let text = "speeds = [\"1 m/s\"]\n";
+        let (message, place) = message(text);
+        assert_eq!(message, "missing field `particle`");
+        assert_eq!(place, Some(text.len()..text.len()));
+        let text = "[shape]\nkind = \"ball\"\nradius = \"1 m\"\n";
+        let (message, place) = super::tests::message(text);
+        assert_eq!(message, "missing field `particle`");
+        assert_eq!(place, Some(text.len()..text.len()));
+    }
+
+    #[test]
+    fn messages_hold_no_names_of_types() {
+        for (text, said) in [
+            (
+                "particle = 3\n",
+                "`particle`: invalid type: integer `3`, expected a table",
+            ),
+            (
+                "speeds = 3\n",
+                "`speeds`: invalid type: integer `3`, expected a list, [...]",
+            ),
+            (
+                "[particle]\nradius = \"1 m\"\n[shape]\nkind = 3\nradius = \"1 m\"\n",
+                "`shape",
+            ),
+        ] {
+            let (message, _) = message(text);
+            assert!(message.starts_with(said), "{message}");
+            for name in ["struct", "enum", "File", "Particle", "Shape", "f64"] {
+                assert!(!message.contains(name), "{message}");
+            }
+        }
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! The one error type of the library: what went wrong, where, and what is allowed instead.
 
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// Everything that can stop a stage. Messages name the place, what was found and the remedy.
@@ -17,8 +18,8 @@ pub enum Error {
         found: String,
         /// What is allowed, as a sentence part ("must lie in [0, 0.5)").
         allowed: String,
-        /// Byte range in the file, for a source snippet.
-        span: Option<std::ops::Range<usize>>,
+        /// Where it stands, for a snippet.
+        place: Option<Box<Place>>,
     },
     /// A TOML file cannot be parsed (syntax, unknown or missing key).
     #[error("{}: {message}", path.display())]
@@ -27,8 +28,8 @@ pub enum Error {
         path: PathBuf,
         /// The parser's message.
         message: String,
-        /// Byte range in the file.
-        span: Option<std::ops::Range<usize>>,
+        /// Where, for a snippet.
+        place: Option<Box<Place>>,
     },
     /// A file cannot be read or written.
     #[error("cannot {action} {}: {source}", path.display())]
@@ -89,6 +90,15 @@ pub enum Error {
         /// Why.
         reason: String,
     },
+}
+
+/// Place in a text. The text goes with it: what was read from a pipe cannot be read again, and a file may have changed.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Place {
+    /// The whole text.
+    pub text: String,
+    /// Byte range in it.
+    pub span: Range<usize>,
 }
 
 /// Result of a stage.

@@ -50,6 +50,18 @@ pub fn write_rows<R: Serialize>(path: &Path, provenance: &str, rows: &[R]) -> Re
     write_atomic(path, &bytes)
 }
 
+/// Row of numbers as [`write_rows`] writes them: shortest digits that read back bit for bit.
+#[must_use]
+pub fn row(numbers: &[f64]) -> String {
+    let mut writer = csv::WriterBuilder::new()
+        .has_headers(false)
+        .from_writer(Vec::new());
+    // a row of numbers goes into memory whatever they are
+    let _ = writer.serialize(numbers);
+    let bytes = writer.into_inner().unwrap_or_default();
+    String::from_utf8_lossy(&bytes).into_owned()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -65,6 +77,27 @@ mod tests {
             std::fs::read_dir(folder.path().join("a")).unwrap().count(),
             1
         );
+    }
+
+    #[test]
+    fn a_row_has_the_number_format_of_all_files() {
+        #[derive(Serialize)]
+        struct Pair {
+            a: f64,
+            b: f64,
+        }
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("p.csv");
+        for (a, b) in [
+            (1e-6, 2.5e9),
+            (0.1 + 0.2, -0.0),
+            (f64::NAN, 1e300),
+            (3.0, 1e-5),
+        ] {
+            write_rows(&path, "test", &[Pair { a, b }]).unwrap();
+            let text = std::fs::read_to_string(&path).unwrap();
+            assert!(text.ends_with(&format!("\n{}", row(&[a, b]))), "{text}");
+        }
     }
 
     #[cfg(unix)]

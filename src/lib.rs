@@ -40,7 +40,7 @@ pub mod tape;
 pub mod theory;
 pub mod unit;
 
-pub use error::{Error, Result};
+pub use error::{Error, Place, Result};
 
 /// Program name and version, for provenance.
 pub const PROGRAM: &str = concat!("impactlaw ", env!("CARGO_PKG_VERSION"));

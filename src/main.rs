@@ -4,6 +4,7 @@ use clap::Parser;
 use impactlaw::cli::Cli;
 use impactlaw::command::{Context, Verdict, diagnostic};
 use impactlaw::{Error, Result};
+use std::io::{IsTerminal, Write};
 use std::process::ExitCode;
 use tracing::Level;
 
@@ -14,14 +15,25 @@ fn main() -> ExitCode {
         Ok(Verdict::Met) => ExitCode::SUCCESS,
         Ok(Verdict::Missed) => ExitCode::from(1),
         Err(error) => {
-            eprint!("{}", diagnostic::text(&error));
+            // a device that is full leaves nobody to tell
+            let _ = write!(std::io::stderr(), "{}", diagnostic::text(&error));
             ExitCode::from(2)
         }
     }
 }
 
+/// Most worker threads: more only take time to start.
+const MOST_THREADS: usize = 1024;
+
 /// Worker threads; 0 is one a core.
 fn start_threads(threads: usize) -> Result<()> {
+    if threads > MOST_THREADS {
+        return Err(Error::Argument {
+            argument: "--threads".to_owned(),
+            found: threads.to_string(),
+            allowed: format!("must be at most {MOST_THREADS}; 0 is one a core"),
+        });
+    }
     rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build_global()
@@ -43,6 +55,7 @@ fn trace(cli: &Cli) {
     tracing_subscriber::fmt()
         .with_max_level(level)
         .with_writer(std::io::stderr)
+        .with_ansi(std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none())
         .with_target(false)
         .without_time()
         .init();

@@ -2,7 +2,7 @@
 
 use crate::Result;
 use crate::case::Case;
-use crate::curve::{Summary, Tangential};
+use crate::curve::{Particle, Summary, Tangential};
 use crate::document::Document;
 use crate::material::{Flow, Material, ReferenceUnits};
 use crate::unit::{Density, Length, Pressure, Quantity, Velocity};
@@ -241,6 +241,7 @@ pub fn scaled(summary: &Summary, from: &ReferenceUnits, to: &Case) -> Summary {
         residual_displacement_m: summary.residual_displacement_m * length,
         contact_time_s: summary.contact_time_s * time,
         tangential,
+        particle: Some(Particle::of(&to.material, to.radius)),
         ..summary.clone()
     }
 }

@@ -1,7 +1,8 @@
 //! Quantities as text: `"70 GPa"` to an SI number and back; the only place where a unit is converted.
 //!
 //! Structs that mirror a file hold [`Quantity`] fields; command-line arguments go through [`argument`].
-//! Both accept what uom knows ("250 µm", "7274 kg/m³"), and its ASCII spellings ("250 um", "7274 kg/m^3", "9.81 m/s2").
+//! Both accept what uom knows ("250 µm", "7274 kg/m³"), its ASCII spellings ("250 um", "7274 kg/m^3", "9.81 m/s2"), the
+//! units of each dimension's list, and a number without a blank before its unit ("0.5mm").
 
 use crate::{Error, Result};
 use serde::de::{self, Deserializer, Visitor};
@@ -16,13 +17,18 @@ pub trait Dimension: Copy + fmt::Debug {
     const NAME: &'static str;
     /// An example of an acceptable text.
     const EXAMPLE: &'static str;
-    /// Number in SI base units; `None` when the text is not "number unit" of this dimension.
+    /// Units that messages list; uom's other units are accepted too.
+    const UNITS: &'static [&'static str];
+    /// Units that uom does not know, in SI base units.
+    const OURS: &'static [(&'static str, f64)];
+    /// Number in SI base units; `None` when the text is not "number unit" of this dimension, as uom spells it.
     fn si(text: &str) -> Option<f64>;
 }
 
-/// Declares the dimensions: marker, name with article, example, uom's type.
+/// Declares the dimensions: marker, name with article, example, uom's type, units that uom knows, units of ours.
 macro_rules! dimensions {
-    ($($(#[$doc:meta])* $marker:ident, $name:literal, $example:literal, $quantity:ty;)+) => {$(
+    ($($(#[$doc:meta])* $marker:ident, $name:literal, $example:literal, $quantity:ty,
+        [$($unit:literal),+], [$($ours:literal = $factor:literal),*];)+) => {$(
         $(#[$doc])*
         #[derive(Debug, Clone, Copy, PartialEq, Eq)]
         pub enum $marker {}
@@ -30,6 +36,8 @@ macro_rules! dimensions {
         impl Dimension for $marker {
             const NAME: &'static str = $name;
             const EXAMPLE: &'static str = $example;
+            const UNITS: &'static [&'static str] = &[$($unit),+ $(, $ours)*];
+            const OURS: &'static [(&'static str, f64)] = &[$(($ours, $factor)),*];
             fn si(text: &str) -> Option<f64> {
                 <$quantity>::from_str(text).ok().map(|quantity| quantity.value)
             }
@@ -39,39 +47,45 @@ macro_rules! dimensions {
 
 dimensions! {
     /// m.
-    Length, "a length", "250 um", si::Length;
+    Length, "a length", "250 um", si::Length,
+        ["nm", "um", "mm", "cm", "dm", "m", "km", "in", "ft"], ["micron" = 1e-6];
     /// m/s.
-    Velocity, "a velocity", "10 m/s", si::Velocity;
+    Velocity, "a velocity", "10 m/s", si::Velocity,
+        ["um/s", "mm/s", "cm/s", "m/s", "km/s", "km/h", "ft/s"], [];
     /// m/s2.
-    Acceleration, "an acceleration", "9.81 m/s2", si::Acceleration;
+    Acceleration, "an acceleration", "9.81 m/s2", si::Acceleration, ["mm/s2", "cm/s2", "m/s2", "km/s2"], [];
     /// rad/s.
-    AngularVelocity, "an angular velocity", "30 rpm", si::AngularVelocity;
+    AngularVelocity, "an angular velocity", "30 rpm", si::AngularVelocity, ["rad/s", "deg/s", "rps", "rpm"], [];
     /// rad.
-    Angle, "an angle", "45 deg", si::Angle;
+    Angle, "an angle", "45 deg", si::Angle, ["rad", "deg"], [];
     /// kg/m3.
-    Density, "a density", "7274 kg/m3", si::MassDensity;
+    Density, "a density", "7274 kg/m3", si::MassDensity,
+        ["kg/m3", "g/cm3", "t/m3", "lb/in3", "lb/ft3"],
+        ["g/cc" = 1e3, "g/ml" = 1e3, "kg/dm3" = 1e3, "kg/l" = 1e3, "g/l" = 1.0, "g/mm3" = 1e6, "kg/mm3" = 1e9, "t/mm3" = 1e12];
     /// kg.
-    Mass, "a mass", "1.5 mg", si::Mass;
+    Mass, "a mass", "1.5 mg", si::Mass, ["ng", "ug", "mg", "g", "kg", "t", "lb"], [];
     /// Pa.
-    Pressure, "a pressure", "70 GPa", si::Pressure;
+    Pressure, "a pressure", "70 GPa", si::Pressure,
+        ["Pa", "kPa", "MPa", "GPa", "N/mm2", "bar", "psi"],
+        ["N/m2" = 1.0, "kN/m2" = 1e3, "kN/mm2" = 1e9, "ksi" = 6.894_757_293_168e6, "Msi" = 6.894_757_293_168e9];
     /// N.
-    Force, "a force", "2.5 N", si::Force;
+    Force, "a force", "2.5 N", si::Force, ["uN", "mN", "N", "kN", "MN", "lbf"], [];
     /// N m.
-    Torque, "a torque", "2.5 mN m", si::Torque;
+    Torque, "a torque", "2.5 mN m", si::Torque, ["uN m", "mN m", "N m", "kN m"], [];
     /// Hz.
-    Frequency, "a frequency", "50 Hz", si::Frequency;
+    Frequency, "a frequency", "50 Hz", si::Frequency, ["mHz", "Hz", "kHz", "MHz"], [];
     /// kg/s.
-    MassRate, "a mass rate", "5 g/s", si::MassRate;
+    MassRate, "a mass rate", "5 g/s", si::MassRate, ["mg/s", "g/s", "kg/s", "kg/h", "t/h"], [];
     /// J.
-    Energy, "an energy", "2 uJ", si::Energy;
+    Energy, "an energy", "2 uJ", si::Energy, ["nJ", "uJ", "mJ", "J", "kJ"], [];
     /// s.
-    Time, "a time", "20 ms", si::Time;
+    Time, "a time", "20 ms", si::Time, ["ns", "us", "ms", "s", "min", "h", "d"], [];
     /// 1/s.
-    StrainRate, "a strain rate", "40 1/s", si::Frequency;
+    StrainRate, "a strain rate", "40 1/s", si::Frequency, ["1/s"], ["1/ms" = 1e3, "1/min" = 0.016_666_666_666_666_666];
     /// K.
-    Temperature, "a temperature", "293 K", si::ThermodynamicTemperature;
+    Temperature, "a temperature", "293 K", si::ThermodynamicTemperature, ["K"], [];
     /// J/(kg K).
-    SpecificHeat, "a specific heat", "450 J/(kg K)", si::SpecificHeatCapacity;
+    SpecificHeat, "a specific heat", "450 J/(kg K)", si::SpecificHeatCapacity, ["J/(kg K)"], ["kJ/(kg K)" = 1e3, "J/(g K)" = 1e3];
 }
 
 /// Text that is not a quantity of the dimension asked for.
@@ -91,17 +105,32 @@ pub struct UnitError {
 /// assert_eq!(unit::parse::<Length>("250 um").unwrap(), 250e-6);
 /// assert_eq!(unit::parse::<Density>("7274 kg/m3").unwrap(), 7274.0);
 /// let error = unit::parse::<Length>("250").unwrap_err();
-/// assert_eq!(error.to_string(), r#"found "250"; must be a length with its unit, e.g. "250 um""#);
+/// let said = error.to_string();
+/// assert!(said.starts_with(r#"found "250"; must be a length with its unit, e.g. "250 um" (units: nm, um, mm,"#), "{said}");
 /// ```
 ///
 /// # Errors
 /// [`UnitError`] when the unit is missing, unknown or of another dimension, or the number is not finite.
 pub fn parse<D: Dimension>(text: &str) -> std::result::Result<f64, UnitError> {
-    D::si(&uom_spelling(text))
+    split(text)
+        .and_then(|(number, unit)| {
+            let ours = D::OURS
+                .iter()
+                .find(|(spelling, _)| *spelling == plain(unit));
+            match ours {
+                Some((_, factor)) => number.parse::<f64>().ok().map(|number| number * factor),
+                None => D::si(&format!("{number} {}", uom_spelling(unit))),
+            }
+        })
         .filter(|value| value.is_finite())
         .ok_or_else(|| UnitError {
             found: format!("\"{text}\""),
-            allowed: format!("must be {} with its unit, e.g. \"{}\"", D::NAME, D::EXAMPLE),
+            allowed: format!(
+                "must be {} with its unit, e.g. \"{}\" (units: {})",
+                D::NAME,
+                D::EXAMPLE,
+                D::UNITS.join(", ")
+            ),
         })
 }
 
@@ -117,13 +146,42 @@ pub fn argument<D: Dimension>(argument: &str, text: &str) -> Result<f64> {
     })
 }
 
-/// "7274 kg/m^3" and "250 um" as uom spells them: "7274 kg/m³", "250 µm".
-fn uom_spelling(text: &str) -> String {
+/// Number and unit of "250 um" or "0.5mm"; `None` when the text does not begin with a number that a unit follows.
+fn split(text: &str) -> Option<(&str, &str)> {
     let text = text.trim();
-    let Some((number, unit)) = text.split_once(char::is_whitespace) else {
-        return text.to_owned();
+    let digits = |from: usize| {
+        let rest = text.as_bytes().get(from..).unwrap_or_default();
+        from + rest.iter().take_while(|byte| byte.is_ascii_digit()).count()
     };
-    let mut unit = unit.trim().replace('^', "").replace('\u{3bc}', "µ");
+    let sign = |from: usize| from + usize::from(text[from..].starts_with(['+', '-']));
+    let mut end = digits(sign(0));
+    if text[end..].starts_with('.') {
+        end = digits(end + 1);
+    }
+    // an exponent is one only with its digits: the e of "3 eV" is not
+    if text[end..].starts_with(['e', 'E']) {
+        let first = sign(end + 1);
+        let last = digits(first);
+        if last > first {
+            end = last;
+        }
+    }
+    let (number, unit) = text.split_at(end);
+    let unit = unit.trim_start();
+    let follows = |c: char| c.is_alphabetic() || c == '°';
+    let is_unit = unit.starts_with(follows) || unit.starts_with("1/");
+    is_unit.then_some((number, unit))
+}
+
+/// "kg/m^3", "kg/m³" and "N·m" as the lists spell them: "kg/m3", "N m".
+fn plain(unit: &str) -> String {
+    let plain = unit.replace('^', "").replace('²', "2").replace('³', "3");
+    plain.replace("\u{3bc}", "u").replace('µ', "u")
+}
+
+/// "kg/m^3" and "um" as uom spells them: "kg/m³", "µm".
+fn uom_spelling(unit: &str) -> String {
+    let mut unit = unit.replace('^', "").replace('\u{3bc}', "µ");
     unit = unit
         .replace('2', "²")
         .replace('3', "³")
@@ -138,7 +196,7 @@ fn uom_spelling(text: &str) -> String {
     if let Some(rest) = unit.strip_prefix('u').filter(|rest| !rest.is_empty()) {
         unit = format!("µ{rest}");
     }
-    format!("{number} {unit}")
+    unit
 }
 
 /// Quantity in an input file: written as text with a unit, held in SI.
@@ -302,8 +360,8 @@ mod tests {
     #[test]
     fn wrong_dimension_missing_unit_and_non_finite_are_rejected() {
         for text in [
-            "", "250", "um", "250um", "250 Pa", "inf m", "NaN m", "1e400 m", "1,5 m", "3 u",
-            "2 m 3",
+            "", "250", "um", "250 Pa", "inf m", "NaN m", "1e400 m", "1,5 m", "3 u", "2 m 3", "+ m",
+            ". m", "- 3 m", "3e m", "3 e2 m", "1 2 m", "250 µ", "ü m", "3. 2 m",
         ] {
             let error = parse::<Length>(text).unwrap_err();
             assert_eq!(error.found, format!("\"{text}\""));
@@ -312,9 +370,65 @@ mod tests {
     }
 
     #[test]
-    fn every_example_is_acceptable() {
+    fn spellings_of_other_codes_and_tables_are_understood() {
+        let close = |a: f64, b: f64| approx::assert_relative_eq!(a, b, max_relative = 1e-7);
+        for (text, si) in [
+            ("0.5mm", 5e-4),
+            ("250um", 250e-6),
+            ("1e-3m", 1e-3),
+            ("5E2 micron", 5e-4),
+        ] {
+            close(parse::<Length>(text).unwrap(), si);
+        }
+        for text in [
+            "7.85 g/cc",
+            "7.85e-9 t/mm3",
+            "7.85e-9t/mm^3",
+            "7.85 kg/dm3",
+            "7.85 kg/dm³",
+            "7.85e-3 g/mm3",
+            "7.85 t/m3",
+            "7.85 kg/l",
+            "7.85 g/ml",
+            "7.85e-6 kg/mm3",
+            "7850 g/l",
+        ] {
+            close(parse::<Density>(text).unwrap(), 7850.0);
+        }
+        for (text, si) in [
+            ("70 kN/mm2", 70e9),
+            ("70kN/mm²", 70e9),
+            ("70e3 N/mm2", 70e9),
+            ("1 ksi", 6.894_757e6),
+            ("1 psi", 6.894_757e3),
+            ("10 Msi", 6.894_757e10),
+            ("1 bar", 1e5),
+            ("3 kN/m2", 3e3),
+        ] {
+            close(parse::<Pressure>(text).unwrap(), si);
+        }
+        close(parse::<Velocity>("36km/h").unwrap(), 10.0);
+        close(parse::<Angle>("180°").unwrap(), std::f64::consts::PI);
+    }
+
+    #[test]
+    fn an_unknown_unit_is_answered_with_all_units_there_are() {
+        let said = parse::<Pressure>("70 GPA").unwrap_err().allowed;
+        for unit in Pressure::UNITS {
+            assert!(said.contains(unit), "{unit} is not in: {said}");
+        }
+    }
+
+    #[test]
+    fn every_example_and_every_listed_unit_is_acceptable() {
         fn accepted<D: Dimension>() {
             assert!(parse::<D>(D::EXAMPLE).unwrap() > 0.0);
+            for unit in D::UNITS {
+                assert!(
+                    parse::<D>(&format!("1.5 {unit}")).is_ok_and(|si| si > 0.0),
+                    "{unit}"
+                );
+            }
         }
         accepted::<Length>();
         accepted::<Velocity>();
@@ -329,6 +443,10 @@ mod tests {
         accepted::<StrainRate>();
         accepted::<Temperature>();
         accepted::<SpecificHeat>();
+        accepted::<Torque>();
+        accepted::<Frequency>();
+        accepted::<MassRate>();
+        accepted::<Energy>();
     }
 
     #[test]

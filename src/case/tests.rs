@@ -163,3 +163,146 @@ fn a_hardening_modulus_of_zero_is_perfect_plasticity() {
     let case = Case::parse(&text, Path::new("c")).unwrap();
     assert_eq!(case.material.flow, Some(Flow::perfectly_plastic(1.25e9)));
 }
+
+/// Values that are slips of a unit: from, to, key, what is said.
+const SLIPS: [(&str, &str, &str, &str); 12] = [
+    (
+        "\"250 um\"",
+        "\"250 m\"",
+        "particle.radius",
+        "250 m is not between 10 nm and 10 m",
+    ),
+    (
+        "\"250 um\"",
+        "\"0.25 nm\"",
+        "particle.radius",
+        "250 pm is not between",
+    ),
+    (
+        "\"8000 kg/m3\"",
+        "\"8 kg/m3\"",
+        "material.density",
+        "8 kg/m³ is not between 25 kg/m³ and 25000 kg/m³",
+    ),
+    (
+        "\"8000 kg/m3\"",
+        "\"8000 g/cm3\"",
+        "material.density",
+        "is not between",
+    ),
+    (
+        "\"100 GPa\"",
+        "\"100 TPa\"",
+        "material.young_modulus",
+        "100 TPa is not between 1 kPa and 2 TPa",
+    ),
+    ("0.35", "0.4999", "material.poisson_ratio", "incompressible"),
+    (
+        "\"1.25 GPa\"",
+        "\"90 GPa\"",
+        "material.yield_strength",
+        "E/Y = 1.11 is less than any solid's",
+    ),
+    (
+        "\"1.25 GPa\"",
+        "\"1.25 kPa\"",
+        "material.yield_strength",
+        "E/Y = 8e7 is more",
+    ),
+    (
+        "\"2 GPa\"",
+        "\"2 TPa\"",
+        "material.hardening_modulus",
+        "above young_modulus",
+    ),
+    (
+        "\"50 m/s\"",
+        "\"50 km/s\"",
+        "impact.velocities",
+        "50000 m/s is above the speed of sound sqrt(E/rho), 3536 m/s",
+    ),
+    (
+        "\"10 m/s\"",
+        "\"1e-200 m/s\"",
+        "impact.velocities",
+        "is rest",
+    ),
+    (
+        "\"1.25 GPa\"",
+        "\"125 kPa\"",
+        "impact.velocities",
+        "rho V^2/Y = 160: nothing is left",
+    ),
+];
+
+#[test]
+fn slips_of_units_are_caught_and_what_is_meant_is_kept() {
+    for (from, to, key, why) in SLIPS {
+        let text = error(from, to);
+        assert!(
+            text.contains(&format!("check the unit of {key}: ")),
+            "{text}"
+        );
+        assert!(text.contains(why), "{text}");
+        let bad = GOOD.replacen(from, to, 1);
+        assert_ne!(bad, GOOD);
+        // a body so soft is also hit too hard
+        let meant = format!("unusual = [\"{key}\", \"impact.velocities\"]\n{bad}");
+        Case::parse(&meant, Path::new("c.toml")).unwrap();
+        let other = format!(
+            "unusual = [\"{}\"]\n{bad}",
+            if key == "particle.radius" {
+                "material.density"
+            } else {
+                "particle.radius"
+            }
+        );
+        assert!(Case::parse(&other, Path::new("c.toml")).is_err(), "{other}");
+    }
+}
+
+#[test]
+fn an_elastic_body_that_would_be_flattened_is_a_slip() {
+    let elastic = GOOD
+        .replace("yield_strength = \"1.25 GPa\"\n", "")
+        .replace("hardening_modulus = \"2 GPa\"\n", "")
+        .replace("50 m/s", "3000 m/s");
+    let text = Case::parse(&elastic, Path::new("c.toml"))
+        .unwrap_err()
+        .to_string();
+    assert!(text.contains("the expected delta* is 1.44 radii"), "{text}");
+}
+
+#[test]
+fn only_keys_that_are_checked_can_be_named_unusual() {
+    let text = format!("unusual = [\"material.densty\"]\n{GOOD}");
+    let text = Case::parse(&text, Path::new("c.toml"))
+        .unwrap_err()
+        .to_string();
+    assert!(
+        text.contains("`unusual[0]`: found \"material.densty\"; must be one of particle.radius,"),
+        "{text}"
+    );
+}
+
+#[test]
+fn speeds_of_the_command_line_are_checked_for_slips_too() {
+    let case = Case::parse(GOOD, Path::new("c.toml")).unwrap();
+    let text = case
+        .with_velocities(&["50 km/s".to_owned()])
+        .unwrap_err()
+        .to_string();
+    assert!(
+        text.contains("--velocity: found \"50 km/s\"; check the unit: 50000 m/s is above"),
+        "{text}"
+    );
+    let meant = GOOD.replace("50 m/s", "50 km/s");
+    let meant = format!("unusual = [\"impact.velocities\"]\n{meant}");
+    let case = Case::parse(&meant, Path::new("c.toml")).unwrap();
+    assert_eq!(
+        case.with_velocities(&["50 km/s".to_owned()])
+            .unwrap()
+            .velocities,
+        [50e3]
+    );
+}

@@ -2,7 +2,7 @@
 
 use super::bed_export::BedExportArgs;
 use super::impact::interval;
-use super::{Command, Context, Verdict, on_a_worker, output_folder, print};
+use super::{Command, Context, Verdict, on_a_worker, output_folder};
 use crate::bed::measures::gauge::Finding;
 use crate::bed::run::{BedReport, Options, run_scene};
 use crate::bed::scene::{Scene, Stage};
@@ -85,7 +85,7 @@ fn run_here(args: &BedRunArgs, context: &Context) -> Result<Verdict> {
     let folder = output_folder(args.out.as_deref(), &scene.name)?;
     let report = simulate(&scene, law.as_ref(), &folder, args.seed, interval, context)?;
     let compressed = |stage: &Stage| matches!(stage, Stage::Compress { .. });
-    print(&summary(&report, scene.stages.iter().any(compressed)))?;
+    context.say(&summary(&report, scene.stages.iter().any(compressed)))?;
     Ok(verdict(&report))
 }
 

@@ -1,12 +1,13 @@
 //! `compare`: from impacts and a law file to `compare.csv` and `compare.md`.
 
 use super::fit::read_impacts;
-use super::{Command, Context, Verdict, check_writable, print};
-use crate::Result;
+use super::{Command, Context, Verdict, check_writable};
 use crate::case::Case;
 use crate::compare::Comparison;
 use crate::contact::{LawVisitor, NormalLaw};
+use crate::curve::Particle;
 use crate::law::{Form, LawFile};
+use crate::{Error, Result};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -42,18 +43,21 @@ impl Command for CompareArgs {
         let impacts = read_impacts(&folder, &case)?;
         let out = self.out.clone().unwrap_or(folder);
         check_writable(&out)?;
-        if file.material() != case.material {
-            tracing::warn!(
-                "{} was made for another material than {}",
-                law.display(),
-                case.path.display()
-            );
+        // a law serves bodies of every radius, but of its own material only
+        let of_law = Particle::of(&file.material(), case.radius);
+        let differences = of_law.differences(&Particle::of(&case.material, case.radius));
+        if !differences.is_empty() {
+            return Err(Error::Argument {
+                argument: law.display().to_string(),
+                found: differences.join(", "),
+                allowed: format!("must be a law of the material of {}", case.path.display()),
+            });
         }
         let mut comparison = Comparison::new(&case.material, case.radius, &impacts);
         add_fitted(&mut comparison, &file)?;
         comparison.add_theories();
         comparison.write(&out, &context.provenance(&case.hash))?;
-        print(&comparison.summary_markdown())?;
+        context.say(&comparison.summary_markdown())?;
         Ok(Verdict::Met)
     }
 }

@@ -63,6 +63,7 @@ impl Command for CostArgs {
                 velocity,
                 out: &out,
                 provenance: context.provenance(&case.hash),
+                quiet: context.quiet,
             };
             let rows = job.run(self, longest, context)?;
             lines.extend(accuracy::lines(&rows, severity(&case.material, velocity)));
@@ -72,7 +73,7 @@ impl Command for CostArgs {
         let text = accuracy::markdown(&lines);
         let markdown = format!("<!-- {provenance} -->\n{text}");
         write_atomic(&out.join("cost_accuracy.md"), markdown.as_bytes())?;
-        print(&text)?;
+        context.say(&text)?;
         Ok(Verdict::Met)
     }
 }
@@ -83,6 +84,7 @@ struct Job<'a> {
     velocity: f64,
     out: &'a Path,
     provenance: String,
+    quiet: bool,
 }
 
 impl Job<'_> {
@@ -195,7 +197,10 @@ impl Job<'_> {
         let markdown = format!("<!-- {} -->\n{text}", self.provenance);
         write_atomic(&name(".md"), markdown.as_bytes())?;
         figure(rows, format!("cost_V{speed}"))?.write(self.out)?;
-        print(&text)
+        match self.quiet {
+            true => Ok(()),
+            false => print(&text),
+        }
     }
 }
 

@@ -64,7 +64,7 @@ impl Command for ExportArgs {
                 write_atomic(&path, artifact.text.as_bytes())?;
                 let _ = writeln!(said, "{}", path.display());
             }
-            print(&said)?;
+            context.say(&said)?;
         }
         match (self.check, &other) {
             (true, Some(other)) => check_with(&law, other),

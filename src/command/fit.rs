@@ -1,11 +1,12 @@
 //! `fit`: from the impacts of a case to its law file.
 
-use super::{Command, Context, Verdict, check_writable, print};
+use super::{Command, Context, Verdict, check_writable, impact_folder};
 use crate::case::Case;
-use crate::curve::Impact;
-use crate::fit::{INERTIA_GAIN, THRESHOLD, fit};
+use crate::curve::{Impact, Particle};
+use crate::document::Document;
+use crate::fit::{INERTIA_GAIN, fit};
 use crate::law::LawFile;
-use crate::law::file::{LeftOutRow, QualityRow};
+use crate::law::file::{LeftOutRow, QualityRow, plain};
 use crate::{Error, PROGRAM, Result};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -24,11 +25,11 @@ pub struct FitArgs {
 }
 
 impl Command for FitArgs {
-    /// Run the verb: [`Verdict::Missed`] when the law is off by more than [`THRESHOLD`] somewhere.
+    /// Run the verb: [`Verdict::Missed`] when the law is off by more than its threshold somewhere.
     ///
     /// # Errors
     /// Those of reading the case and the impacts, of the fit, and of writing the law.
-    fn run(&self, _context: &Context) -> Result<Verdict> {
+    fn run(&self, context: &Context) -> Result<Verdict> {
         let case = Case::read(&self.case)?;
         check_normal(&case)?;
         let folder = self
@@ -36,25 +37,65 @@ impl Command for FitArgs {
             .clone()
             .unwrap_or_else(|| Path::new("out").join(&case.name));
         let target = self.out.clone().unwrap_or_else(|| folder.join("law.toml"));
+        check_target(&target, &case)?;
         let impacts = read_impacts(&folder, &case)?;
         check_writable(target.parent().unwrap_or(Path::new(".")))?;
-        let result = fit(&case, &impacts)?;
-        for velocity in &result.skipped {
-            tracing::warn!("the impact at {velocity} m/s did not rebound and is left out");
-        }
-        let file = LawFile::of(&result, &case, PROGRAM);
+        let file = LawFile::of(&fit(&case, &impacts)?, &case, PROGRAM);
         file.write(&target)?;
-        print(&table(&file, &target))?;
-        if file.worst_error() <= THRESHOLD {
-            return Ok(Verdict::Met);
-        }
-        let percent = 100.0 * file.worst_error();
-        tracing::warn!(
-            "the law misses a figure by {percent:.1} %, more than {:.0} %",
-            100.0 * THRESHOLD
-        );
-        Ok(Verdict::Missed)
+        context.say(&table(&file, &target))?;
+        Ok(verdict(&file))
     }
+}
+
+/// Says what there is to know of a law; [`Verdict::Missed`], with its reason, when it is off by more than its threshold.
+pub fn verdict(file: &LawFile) -> Verdict {
+    for warning in &file.warnings {
+        tracing::warn!("{warning}");
+    }
+    if file.worst_error() <= file.threshold() {
+        return Verdict::Met;
+    }
+    tracing::warn!(
+        "the law misses a figure by {:.1} %, more than the {:.2} % of its case's tolerance",
+        100.0 * file.worst_error(),
+        100.0 * file.threshold()
+    );
+    Verdict::Missed
+}
+
+/// That a law of `case` may be written to `target`: nothing stands there, or an earlier law of the same case.
+///
+/// # Errors
+/// [`Error::Argument`] naming whose law, or that no law, stands there.
+pub fn check_target(target: &Path, case: &Case) -> Result<()> {
+    if !target.exists() {
+        return Ok(());
+    }
+    let refuse = |found: String| Error::Argument {
+        argument: target.display().to_string(),
+        found,
+        allowed: "it is not overwritten; give another file with `--out`, or remove it".to_owned(),
+    };
+    let Ok(there) = Document::read(target).and_then(|document| LawFile::parse(&document)) else {
+        return Err(refuse("a file that is no law of this version".to_owned()));
+    };
+    if there.provenance.case != plain(&case.name) {
+        return Err(refuse(format!(
+            "the law of another case, {}",
+            there.provenance.case
+        )));
+    }
+    let before = Particle::of(&there.material(), there.provenance.radius_m);
+    let differences = before.differences(&Particle::of(&case.material, case.radius));
+    if !differences.is_empty() {
+        tracing::warn!(
+            "{} replaces a law of case {} with {}",
+            target.display(),
+            case.name,
+            differences.join(", ")
+        );
+    }
+    Ok(())
 }
 
 /// Checks that the impacts of a case can be compared with a normal law.
@@ -73,52 +114,99 @@ pub fn check_normal(case: &Case) -> Result<()> {
     })
 }
 
-/// Impacts in the folders `impact_V*` of `folder`, slowest first; a warning if they were made from another case file.
+/// Impacts of the case in `folder`, slowest first: those of its speeds, of its own material and radius. Folders of other speeds
+/// are left out by name, and speeds without a folder are named.
 ///
 /// # Errors
-/// [`Error::File`] when the folder cannot be read, [`Error::Argument`] when it holds none, and those of each file.
+/// [`Error::Argument`] when an impact of one of its speeds is another particle's, or when there is none; and those of each file.
 pub fn read_impacts(folder: &Path, case: &Case) -> Result<Vec<Impact>> {
-    let entries = std::fs::read_dir(folder).map_err(Error::file("read", folder))?;
-    let paths = entries
-        .map(|entry| entry.map(|e| e.path()))
-        .collect::<std::io::Result<Vec<PathBuf>>>()
-        .map_err(Error::file("read", folder))?;
-    let named = |p: &PathBuf| {
-        let name = p.file_name().map(|n| n.to_string_lossy().into_owned());
-        p.is_dir() && name.is_some_and(|n| n.starts_with("impact_V"))
-    };
-    let paths: Vec<PathBuf> = paths.into_iter().filter(named).collect();
-    let mut impacts = paths
-        .iter()
-        .map(|p| Impact::read(p))
-        .collect::<Result<Vec<_>>>()?;
-    let foreign = |p: &&PathBuf| made_from_other(p, case);
-    if let Some(path) = paths.iter().find(foreign) {
-        tracing::warn!(
-            "{} was made from another version of {} (its hash differs); if radius or material changed, repeat the impacts",
-            path.display(),
-            case.path.display()
-        );
+    let mut impacts = Vec::new();
+    let mut missing = Vec::new();
+    for &velocity in &case.velocities {
+        let path = impact_folder(folder, velocity);
+        if !path.join("summary.json").is_file() {
+            missing.push(format!("{velocity} m/s"));
+            continue;
+        }
+        let impact = Impact::read(&path)?;
+        check_owner(&impact, &path, velocity, case)?;
+        impacts.push(impact);
     }
     if impacts.is_empty() {
         return Err(Error::Argument {
             argument: "--impacts".to_owned(),
             found: folder.display().to_string(),
-            allowed: "must hold folders `impact_V*`; make them with `impactlaw impact CASE`"
-                .to_owned(),
+            allowed: format!(
+                "must hold a folder `impact_V*` of one of the case's speeds ({}); make them with `impactlaw impact {}`",
+                missing.join(", "),
+                case.path.display()
+            ),
         });
     }
-    impacts.sort_by(|a, b| a.summary.velocity_m_s.total_cmp(&b.summary.velocity_m_s));
+    if !missing.is_empty() {
+        tracing::warn!(
+            "{} has no impacts at {}; make them with `impactlaw impact {}`",
+            folder.display(),
+            missing.join(", "),
+            case.path.display()
+        );
+    }
+    let others = other_speeds(folder, case)?;
+    if !others.is_empty() {
+        tracing::warn!(
+            "left out, for their speeds are not the case's: {}",
+            others.join(", ")
+        );
+    }
     Ok(impacts)
 }
 
-/// Does the provenance line of an impact's `curve.csv` name another case hash? Curves without one are taken as they are.
-fn made_from_other(impact: &Path, case: &Case) -> bool {
-    let text = std::fs::read_to_string(impact.join("curve.csv")).unwrap_or_default();
-    let line = text.lines().next().unwrap_or_default();
-    let recorded = line.split_once("case sha256 ").map(|(_, rest)| rest);
-    let hash = recorded.and_then(|rest| rest.split(';').next());
-    hash.is_some_and(|hash| hash != case.hash)
+/// That an impact is of the case's particle and speed.
+fn check_owner(impact: &Impact, path: &Path, velocity: f64, case: &Case) -> Result<()> {
+    let refuse = |found: String| {
+        Err(Error::Argument {
+            argument: path.display().to_string(),
+            found,
+            allowed: format!(
+                "is not an impact of {}; repeat it with `impactlaw impact {}`, or name the folder of its own with `--impacts`",
+                case.path.display(),
+                case.path.display()
+            ),
+        })
+    };
+    let summary = &impact.summary;
+    let Some(particle) = &summary.particle else {
+        return refuse("an impact that does not say whose it is".to_owned());
+    };
+    let differences = particle.differences(&Particle::of(&case.material, case.radius));
+    if !differences.is_empty() {
+        return refuse(differences.join(", "));
+    }
+    if (summary.velocity_m_s / velocity - 1.0).abs() > 1e-12 {
+        return refuse(format!("a speed of {} m/s", summary.velocity_m_s));
+    }
+    Ok(())
+}
+
+/// Names of the folders `impact_V*` of `folder` that no speed of the case has.
+fn other_speeds(folder: &Path, case: &Case) -> Result<Vec<String>> {
+    let own: Vec<_> = case
+        .velocities
+        .iter()
+        .map(|velocity| impact_folder(folder, *velocity))
+        .collect();
+    let entries = std::fs::read_dir(folder).map_err(Error::file("read", folder))?;
+    let mut names = Vec::new();
+    for entry in entries {
+        let path = entry.map_err(Error::file("read", folder))?.path();
+        let name = path.file_name().map(|n| n.to_string_lossy().into_owned());
+        let is_impact = name.as_ref().is_some_and(|n| n.starts_with("impact_V"));
+        if is_impact && path.is_dir() && !own.contains(&path) {
+            names.extend(name);
+        }
+    }
+    names.sort();
+    Ok(names)
 }
 
 /// What a person wants to see at once: errors in per cent, by form and speed.

@@ -4,12 +4,13 @@ use crate::case::Case;
 use crate::command::{Command, Context, Verdict, impact_folder, output_folder};
 use crate::curve::Status;
 use crate::impact::{Simulated, simulate_kept};
-use crate::plan::plan;
+use crate::plan::plans;
 use crate::tape::Checkpoint;
-use crate::unit::{self, Time};
+use crate::unit::{self, Time, engineering, significant};
 use crate::{Error, Result};
 use clap::Args;
 use rayon::prelude::*;
+use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -43,9 +44,41 @@ impl Command for ImpactArgs {
         let case = Case::read(&self.case)?.with_velocities(&self.velocity)?;
         let interval = interval(&self.checkpoint)?;
         let out = output_folder(self.out.as_deref(), &case.name)?;
-        impacts(&case, &out, interval, context)?;
+        let all = impacts(&case, &out, interval, context)?;
+        context.say(&findings(&all, &out))?;
+        all.iter().try_for_each(check)?;
         Ok(Verdict::Met)
     }
+}
+
+/// What the impacts gave and where it lies, as text.
+fn findings(all: &[Simulated], out: &Path) -> String {
+    let mut text = format!(
+        "{:>10} {:>8} {:>11} {:>11} {:>11}  folder\n",
+        "V", "e", "F*", "delta*", "t_c"
+    );
+    for summary in all.iter().map(|done| &done.impact.summary) {
+        let folder = impact_folder(out, summary.velocity_m_s);
+        let figures = [
+            engineering(summary.velocity_m_s, "m/s", 4),
+            significant(summary.restitution, 4),
+            engineering(summary.max_force_n, "N", 4),
+            engineering(summary.max_displacement_m, "m", 4),
+            engineering(summary.contact_time_s, "s", 4),
+        ];
+        let [v, e, f, d, t] = figures;
+        let mark = match &summary.status {
+            Status::Ok => "",
+            Status::NoRebound => "  no rebound",
+            Status::Failed(_) => "  failed",
+        };
+        let _ = writeln!(
+            text,
+            "{v:>10} {e:>8} {f:>11} {d:>11} {t:>11}  {}{mark}",
+            folder.display()
+        );
+    }
+    text
 }
 
 /// Time between two checkpoints.
@@ -61,17 +94,18 @@ pub fn interval(text: &str) -> Result<Duration> {
     })
 }
 
-/// Simulate every speed of `case`, longest first, and write each as soon as it is there; returned in order of speed.
+/// Simulate every speed of `case`, longest first, and write each as soon as it is there; returned in order of speed, those
+/// that did not end among them.
 ///
 /// # Errors
-/// As [`run`].
+/// Those of planning and of writing the results.
 pub fn impacts(
     case: &Case,
     out: &Path,
     interval: Duration,
     context: &Context,
 ) -> Result<Vec<Simulated>> {
-    let mut plans: Vec<_> = case.velocities.iter().map(|v| plan(case, *v)).collect();
+    let mut plans = plans(case)?;
     plans.sort_by(|a, b| b.seconds.total_cmp(&a.seconds));
     let bar = context.progress(plans.len() as u64, "impacts");
     let provenance = context.provenance(&case.hash);
@@ -89,6 +123,15 @@ pub fn impacts(
             done.rebound
                 .write(&map("particle_rebound.csv"), &provenance)?;
             bar.inc(1);
+            let summary = &done.impact.summary;
+            tracing::info!(
+                "{} m/s: {} points, {} steps in {:.1} s (predicted {:.1} s)",
+                plan.velocity,
+                summary.points,
+                summary.steps,
+                summary.wall_s,
+                plan.seconds
+            );
             Ok(done)
         })
         .collect::<Result<Vec<Simulated>>>()?;
@@ -97,14 +140,14 @@ pub fn impacts(
         let speed = |s: &Simulated| s.impact.summary.velocity_m_s;
         speed(a).total_cmp(&speed(b))
     });
-    for done in &all {
-        check(done)?;
-    }
     Ok(all)
 }
 
-/// A run that did not finish is an error, with its reason.
-fn check(done: &Simulated) -> Result<()> {
+/// Checks that a run finished.
+///
+/// # Errors
+/// [`Error::Impact`] with its reason when it did not.
+pub fn check(done: &Simulated) -> Result<()> {
     let summary = &done.impact.summary;
     let reason = match &summary.status {
         Status::Ok => return Ok(()),

@@ -3,11 +3,11 @@
 use super::{Command, Context, Verdict, print};
 use crate::Result;
 use crate::contact::{LawVisitor, NormalLaw};
+use crate::files::row;
 use crate::law::LawFile;
 use crate::unit::{Length, argument};
 use crate::{Error, unit::Dimension};
 use clap::{Args, Subcommand};
-use std::fmt::Write;
 use std::path::PathBuf;
 
 /// Work with a law file.
@@ -76,7 +76,7 @@ fn eval(args: &LawEvalArgs) -> Result<Verdict> {
     let mut text = "displacement_m,force_N\n".to_owned();
     for displacement in displacements {
         let force = law.force(radius, displacement, most);
-        let _ = writeln!(text, "{displacement:e},{force:e}");
+        text.push_str(&row(&[displacement, force]));
     }
     print(&text)?;
     Ok(Verdict::Met)

@@ -92,7 +92,9 @@ impl Context {
     /// Context of this process.
     #[must_use]
     pub fn of_process(quiet: bool) -> Self {
-        let words = std::env::args().skip(1).map(|word| quoted(&word));
+        let words = std::env::args_os()
+            .skip(1)
+            .map(|word| quoted(&word.to_string_lossy()));
         let command = std::iter::once("impactlaw".to_owned())
             .chain(words)
             .collect::<Vec<_>>()
@@ -108,6 +110,17 @@ impl Context {
             crate::PROGRAM,
             self.command
         )
+    }
+
+    /// Print what a verb found, which also stands in its files; nothing with `-q`.
+    ///
+    /// # Errors
+    /// As [`print`].
+    pub fn say(&self, text: &str) -> Result<()> {
+        match self.quiet {
+            true => Ok(()),
+            false => print(text),
+        }
     }
 
     /// Progress on stderr; draws nothing with `-q` or where stderr is no terminal.
@@ -132,7 +145,13 @@ fn quoted(word: &str) -> String {
     if !word.is_empty() && word.chars().all(plain) {
         word.to_owned()
     } else {
-        format!("'{}'", word.replace('\'', r"'\''"))
+        // provenance is one line of a file that has others
+        let word = word.replace('\'', r"'\''");
+        let shown = word.chars().map(|c| match c.is_control() {
+            true => c.escape_default().to_string(),
+            false => c.to_string(),
+        });
+        format!("'{}'", shown.collect::<String>())
     }
 }
 
@@ -151,8 +170,16 @@ pub fn output_folder(given: Option<&Path>, name: &str) -> Result<PathBuf> {
 /// That files can be created in `folder`, which need not exist yet.
 ///
 /// # Errors
-/// [`Error::File`] naming `folder` when they cannot.
+/// [`Error::File`] naming `folder` when they cannot, [`Error::Argument`] when its name holds control characters.
 pub fn check_writable(folder: &Path) -> Result<()> {
+    let shown = folder.to_string_lossy();
+    if shown.contains(char::is_control) {
+        return Err(Error::Argument {
+            argument: "output folder".to_owned(),
+            found: format!("{shown:?}"),
+            allowed: "must have no line breaks or other control characters in its name".to_owned(),
+        });
+    }
     let existing = folder
         .ancestors()
         .find(|ancestor| ancestor.exists())
@@ -215,6 +242,7 @@ mod tests {
         assert_eq!(quoted("10 m/s"), "'10 m/s'");
         assert_eq!(quoted("cases/a.toml"), "cases/a.toml");
         assert_eq!(quoted("it's"), r"'it'\''s'");
+        assert_eq!(quoted("a\nb"), r"'a\nb'");
     }
 
     #[test]

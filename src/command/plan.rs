@@ -3,7 +3,7 @@
 use crate::Result;
 use crate::case::Case;
 use crate::command::{Command, Context, Verdict, print};
-use crate::plan::{Plan, plan};
+use crate::plan::{Plan, plans};
 use crate::unit::engineering;
 use clap::Args;
 use std::fmt::Write;
@@ -23,18 +23,17 @@ impl Command for PlanArgs {
     /// Print the plan of every speed.
     ///
     /// # Errors
-    /// Those of reading the case.
+    /// Those of reading and planning the case.
     fn run(&self, _context: &Context) -> Result<Verdict> {
         let case = Case::read(&self.case)?.with_velocities(&self.velocity)?;
-        print(&text(&case))?;
+        print(&text(&case, &plans(&case)?))?;
         Ok(Verdict::Met)
     }
 }
 
 /// The plan as a person reads it.
 #[must_use]
-pub fn text(case: &Case) -> String {
-    let plans: Vec<Plan> = case.velocities.iter().map(|v| plan(case, *v)).collect();
+pub fn text(case: &Case, plans: &[Plan]) -> String {
     let mut out = format!(
         "Plan of {} for {} impacts, tolerance {}\n",
         case.name,
@@ -42,7 +41,7 @@ pub fn text(case: &Case) -> String {
         case.tolerance
     );
     let length = |x: f64| engineering(x * case.radius, "m", 3);
-    for p in &plans {
+    for p in plans {
         let g = &p.grid;
         let _ = write!(
             out,

@@ -2,7 +2,7 @@
 
 use super::{Misfit, SIMULATION};
 use crate::contact::rebound::Rebound;
-use crate::curve::Summary;
+use crate::curve::{Summary, restitution_error};
 use serde::{Deserialize, Serialize};
 
 /// One law at one speed. Field names are the CSV header (file contract); errors and misfits are empty in the rows
@@ -108,7 +108,7 @@ impl Row {
             max_force_error_rel: relative(hit.max_force, impact.max_force_n),
             max_displacement_error_rel: relative(hit.max_displacement, impact.max_displacement_m),
             residual_displacement_error_rel: Some(residual / impact.max_displacement_m),
-            restitution_error_rel: relative(hit.restitution, impact.restitution),
+            restitution_error_rel: Some(restitution_error(hit.restitution, impact.restitution)),
             contact_time_error_rel: relative(hit.contact_time, impact.contact_time_s),
             extrapolated: Some(extrapolated),
         }

@@ -61,6 +61,11 @@ pub struct Memory {
 
 keep_fields!(Memory: flattening, force, residual, exponent);
 
+/// Largest flattening $\delta/R$ at which a branch is asked for; a body ends there.
+const DEEPEST: f64 = 2.0;
+/// Recovered part $1 - \rho$ of a branch below which it is lost in rounding.
+const LEAST_RECOVERY: f64 = 1e-12;
+
 /// Rounding allowed when the bound of the loading exponent is compared with that of unloading.
 const EXPONENT_ROUNDING: f64 = 1e-9;
 
@@ -94,6 +99,14 @@ impl<L: Loading> Elastoplastic<L> {
                 "must not exceed that of unloading, n/(1 - residual ratio), or cycles would yield energy",
             )?;
         }
+        let deepest = DEEPEST / units.flattening;
+        let (rho, _) = unloading.branch(deepest, loading.departure(), units.flattening);
+        Inadmissible::unless(
+            1.0 - rho >= LEAST_RECOVERY,
+            "residual ratio",
+            rho,
+            "must stay below 1 - 1e-12 up to a flattening of 2 R: nothing would be left to unload",
+        )?;
         Ok(Elastoplastic {
             loading,
             unloading,

@@ -5,6 +5,7 @@ use crate::export::source::artifact::Artifact;
 use crate::export::source::describe;
 use crate::export::source::dialect::{Dialect, PairExport};
 use crate::export::source::portable::Portable;
+use crate::files::row;
 use std::fmt::Write;
 
 /// Largest displacements of the table, up to the end of the law's range.
@@ -46,7 +47,7 @@ pub fn export(law: &Portable) -> Vec<Artifact> {
         for point in 0..=POINTS {
             let x = lost + (most - lost) * f64::from(point) / f64::from(POINTS);
             let x = if point == POINTS { most } else { x };
-            let _ = writeln!(text, "{most:e},{x:e},{:e}", law.core.force(1.0, x, most));
+            text.push_str(&row(&[most, x, law.core.force(1.0, x, most)]));
         }
     }
     vec![Artifact {

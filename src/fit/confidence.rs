@@ -7,10 +7,14 @@ use super::run::Run;
 use super::solve::polish;
 use crate::Result;
 use crate::contact::NormalLaw;
+use crate::curve::restitution_error;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rayon::prelude::*;
 
+/// Fewest runs of a bootstrap. n runs make C(2n-1, n) different resamples: 10 of three runs, 35 of four, 126 of five; fewer
+/// than 1/[`TAIL`] have no tails to cut off.
+pub const LEAST_RUNS: usize = 5;
 /// Refits of the bootstrap; each resamples the runs with replacement.
 pub const RESAMPLES: usize = 100;
 /// Seed of the bootstrap: the intervals of the same runs are the same numbers everywhere.
@@ -31,16 +35,15 @@ pub struct LeftOut {
     pub restitution: f64,
 }
 
-/// 95 % intervals of the constants of `F`, each `[low, high]`; `None` for a single run.
+/// 95 % intervals of the constants of `F`, each `[low, high]`; `None` for fewer than [`LEAST_RUNS`] runs, or where one in ten
+/// refits finds no law.
 ///
 /// The unit that is resampled is the run, because neighbouring samples of one curve are not independent. Refits
 /// start at the optimum `free`.
-///
-/// # Errors
-/// As [`polish`].
-pub fn intervals<F: Form>(form: &F, runs: &[Run], free: &[f64]) -> Result<Option<Vec<[f64; 2]>>> {
-    if runs.len() < 2 {
-        return Ok(None);
+#[must_use]
+pub fn intervals<F: Form>(form: &F, runs: &[Run], free: &[f64]) -> Option<Vec<[f64; 2]>> {
+    if runs.len() < LEAST_RUNS {
+        return None;
     }
     let draws: Vec<Vec<f64>> = {
         let mut random = Pcg64::seed_from_u64(SEED);
@@ -56,18 +59,20 @@ pub fn intervals<F: Form>(form: &F, runs: &[Run], free: &[f64]) -> Result<Option
                 runs,
                 weights,
             };
-            let free = polish(&objective, free)?;
-            Ok(constants(form, &free))
+            constants(form, &polish(&objective, free).ok()?)
         })
-        .collect::<Result<Vec<Option<Vec<f64>>>>>()?;
+        .collect::<Vec<Option<Vec<f64>>>>();
     let refits: Vec<Vec<f64>> = refits.into_iter().flatten().collect();
+    if refits.len() < RESAMPLES - RESAMPLES / 10 {
+        return None;
+    }
     let count = refits.first().map_or(0, Vec::len);
     let interval = |j: usize| {
         let mut values: Vec<f64> = refits.iter().map(|c| c[j]).collect();
         values.sort_by(f64::total_cmp);
         [TAIL, 1.0 - TAIL].map(|p| values[(p * (values.len() - 1) as f64).round() as usize])
     };
-    Ok(Some((0..count).map(interval).collect()))
+    Some((0..count).map(interval).collect())
 }
 
 /// How often each run is drawn in one resample.
@@ -88,39 +93,55 @@ fn constants<F: Form>(form: &F, free: &[f64]) -> Option<Vec<f64>> {
 }
 
 /// Leave-one-speed-out errors: for each run, `fit` makes a form and its free numbers from the others, which predict
-/// it. Empty for a single run.
-///
-/// # Errors
-/// As `fit`.
-pub fn left_out<F, B>(runs: &[Run], fit: B) -> Result<Vec<LeftOut>>
+/// it. NaN where the others make no law; empty for a single run.
+pub fn left_out<F, B>(runs: &[Run], fit: B) -> Vec<LeftOut>
 where
     F: Form,
     B: Fn(&[Run]) -> Result<(F, Vec<f64>)> + Sync,
 {
     if runs.len() < 2 {
-        return Ok(Vec::new());
+        return Vec::new();
     }
     (0..runs.len())
         .into_par_iter()
         .map(|i| {
             let (mut others, run) = (runs.to_vec(), &runs[i]);
             others.remove(i);
-            let (form, free) = fit(&others)?;
-            Ok(predict(&form, &free, run))
+            let law = fit(&others).ok();
+            let law = law.and_then(|(form, free)| form.law(&free, f64::MAX));
+            let pulse = law.and_then(|law| Pulse::of(&law, run.energy, run.max_flattening));
+            predict(pulse.as_ref(), run)
         })
         .collect()
 }
 
-fn predict<F: Form>(form: &F, free: &[f64], run: &Run) -> LeftOut {
-    let law = form.law(free, f64::MAX);
-    let pulse = law.and_then(|law| Pulse::of(&law, run.energy, run.max_flattening));
-    let error = |figure: fn(&Pulse) -> f64, truth: f64| {
-        pulse.as_ref().map_or(f64::NAN, |p| figure(p) / truth - 1.0)
-    };
+/// Errors of a pulse, NaN without one.
+fn predict(pulse: Option<&Pulse>, run: &Run) -> LeftOut {
+    let error = |of: &dyn Fn(&Pulse) -> f64| pulse.map_or(f64::NAN, of);
     LeftOut {
         velocity: run.velocity,
-        max_force: error(|p| p.force, run.max_force),
-        max_displacement: error(|p| p.flattening, run.max_flattening),
-        restitution: error(|p| p.restitution, run.restitution),
+        max_force: error(&|p| p.force / run.max_force - 1.0),
+        max_displacement: error(&|p| p.flattening / run.max_flattening - 1.0),
+        restitution: error(&|p| restitution_error(p.restitution, run.restitution)),
+    }
+}
+
+impl LeftOut {
+    /// Largest of the errors, without sign; NaN if one is.
+    #[must_use]
+    pub fn worst(&self) -> f64 {
+        let LeftOut {
+            velocity: _,
+            max_force,
+            max_displacement,
+            restitution,
+        } = *self;
+        let errors = [max_force, max_displacement, restitution];
+        errors.iter().fold(
+            0.0,
+            |worst: f64, e| {
+                if e.abs() <= worst { worst } else { e.abs() }
+            },
+        )
     }
 }

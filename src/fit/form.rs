@@ -66,6 +66,17 @@ fn unloading_start() -> [f64; UNLOADING] {
 
 /// Spread of the unloading numbers: a factor of about 1.6 in each constant.
 const UNLOADING_SPREAD: f64 = 0.5;
+/// Spread of a number that is held at its start.
+const HELD: f64 = 1e-6;
+
+/// Spreads of the unloading numbers for a fit to `runs` impacts. Each impact has one residual and one exponent of unloading: one
+/// impact determines c and n_1, and k and n_2, which say how these grow with the flattening, are held where they start.
+fn unloading_spread(runs: usize) -> [f64; UNLOADING] {
+    match runs {
+        0 | 1 => [UNLOADING_SPREAD, HELD, UNLOADING_SPREAD, HELD],
+        _ => [UNLOADING_SPREAD; UNLOADING],
+    }
+}
 
 /// Logarithm of the inertia coefficient to start from: that of a flat disc in an ideal fluid, $3\sqrt2 \cdot 4/3$
 /// ([`Inertia`](crate::contact::inertia::Inertia)).
@@ -83,6 +94,8 @@ pub struct ClosedFormFit {
     pub units: YieldUnits,
     /// Density of the body (kg/m3), if the law is to have an inertia term.
     pub density: Option<f64>,
+    /// Impacts it is fitted to.
+    pub runs: usize,
 }
 
 /// Middle of the closed form's fits to four curves (quasi-static finite elements at $E/Y = 80$, Kogut-Etsion,
@@ -104,7 +117,7 @@ impl Form for ClosedFormFit {
 
     fn spread(&self) -> Vec<f64> {
         let inertia = self.density.map(|_| INERTIA_SPREAD);
-        let unloading = [UNLOADING_SPREAD; UNLOADING];
+        let unloading = unloading_spread(self.runs);
         let loading = CLOSED_SPREAD.into_iter().chain(inertia);
         loading.chain(unloading).collect()
     }
@@ -136,6 +149,7 @@ impl Form for ClosedFormFit {
 pub struct SplineFit {
     units: YieldUnits,
     density: Option<f64>,
+    runs: usize,
     hertz_to: f64,
     flattenings: Vec<f64>,
     start: Vec<f64>,
@@ -180,6 +194,7 @@ impl SplineFit {
         SplineFit {
             units: closed.units,
             density: closed.density,
+            runs: runs.len(),
             hertz_to,
             flattenings,
             start,
@@ -234,7 +249,7 @@ impl Form for SplineFit {
     }
 
     fn spread(&self) -> Vec<f64> {
-        let unloading = [UNLOADING_SPREAD; UNLOADING];
+        let unloading = unloading_spread(self.runs);
         let exponents = std::iter::repeat_n(EXPONENT_SPREAD, self.flattenings.len());
         let inertia = self.density.map(|_| INERTIA_SPREAD);
         exponents.chain(inertia).chain(unloading).collect()

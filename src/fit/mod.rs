@@ -12,7 +12,7 @@ use crate::case::Case;
 use crate::contact::elastoplastic::{Elastoplastic, YieldUnits};
 use crate::contact::loading::SoftenedHertz;
 use crate::contact::spline::SplineLoading;
-use crate::curve::{Impact, Status};
+use crate::curve::Impact;
 use crate::theory::hertz::Hertz;
 use crate::{Error, Result};
 use confidence::LeftOut;
@@ -21,8 +21,18 @@ use quality::Quality;
 use residual::Objective;
 use run::{Run, Scale};
 
-/// Largest error of F*, delta* and e at any speed with which a law counts as good.
-pub const THRESHOLD: f64 = 0.03;
+/// Largest error of F*, delta* and e at any speed with which a law counts as good, for impacts simulated to a relative
+/// `tolerance`: half of the tolerance is left for what the form cannot follow.
+#[must_use]
+pub fn threshold(tolerance: f64) -> f64 {
+    1.5 * tolerance
+}
+
+/// Largest error at a speed that was left out, beyond which a law is said to be no guide between and beyond its speeds.
+#[must_use]
+pub fn left_out_bound(tolerance: f64) -> f64 {
+    5.0 * tolerance
+}
 
 /// Fall of the largest error of F*, delta* and e, over that error, for which the inertia term is kept.
 pub const INERTIA_GAIN: f64 = 0.1;
@@ -35,7 +45,8 @@ pub struct FittedForm<L> {
     /// Its errors, one entry a speed.
     pub quality: Vec<Quality>,
     /// 95 % intervals of its constants: those of the loading curve (closed form: $w_1, b, q$; spline: the force of
-    /// each knot), then $\kappa$ of the inertia term if the law has one, then $c, k, n_1, n_2$. `None` for a single speed.
+    /// each knot), then $\kappa$ of the inertia term if the law has one, then $c, k, n_1, n_2$. `None` for fewer than
+    /// [`confidence::LEAST_RUNS`] speeds.
     pub intervals: Option<Vec<[f64; 2]>>,
     /// Errors at speeds that were left out of the fit; empty for a single speed.
     pub left_out: Vec<LeftOut>,
@@ -51,13 +62,22 @@ pub enum Outcome {
         /// Its errors, one entry a speed.
         quality: Vec<Quality>,
     },
-    /// The law in both forms.
+    /// The law in both forms, or in the one that was found.
     Yielding {
         /// Closed form.
-        closed_form: Box<FittedForm<SoftenedHertz>>,
+        closed_form: Option<Box<FittedForm<SoftenedHertz>>>,
         /// Spline.
-        spline: Box<FittedForm<SplineLoading>>,
+        spline: Option<Box<FittedForm<SplineLoading>>>,
     },
+}
+
+/// An impact that was not used.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Skipped {
+    /// Its speed, m/s.
+    pub velocity: f64,
+    /// Why, as in "the impact at 3 m/s ...".
+    pub why: String,
 }
 
 /// Result of a fit.
@@ -69,8 +89,12 @@ pub struct Fit {
     pub flattening: f64,
     /// Smallest and largest impact speed, m/s.
     pub velocities: [f64; 2],
-    /// Speeds of impacts that were not used because they did not rebound, m/s.
-    pub skipped: Vec<f64>,
+    /// Accuracy of the impacts, relative.
+    pub tolerance: f64,
+    /// Impacts that were not used.
+    pub skipped: Vec<Skipped>,
+    /// Why a form is missing, if one is.
+    pub missing: Option<String>,
 }
 
 /// Fit the law of a case's material to its impacts.
@@ -79,10 +103,12 @@ pub struct Fit {
 /// Otherwise both forms are fitted to F*, delta*, e, delta_res, contact time and the force curves of all
 /// impacts together ([`residual`]), with bootstrap intervals and errors at left-out speeds ([`confidence`]). Each form is
 /// fitted without and with an inertia term ([`crate::contact::inertia`]); the term is kept where it lowers the largest
-/// error by [`INERTIA_GAIN`]. A single speed cannot tell inertia from hardness and gets none.
+/// error by [`INERTIA_GAIN`]. A single speed cannot tell inertia from hardness and gets none; nor how residual and exponent of the
+/// unloading grow, which stay where they start. Impacts that stick are data; those that did not end or make no sense are left
+/// out by name.
 ///
 /// # Errors
-/// [`Error::Fit`] when no impact rebounded, the flow stress depends on the size, an impact's data make no sense, or no admissible law is found.
+/// [`Error::Fit`] when no impact is left, the flow stress depends on the size, or neither form finds an admissible law.
 pub fn fit(case: &Case, impacts: &[Impact]) -> Result<Fit> {
     let constants = case.material.flow.map_or_else(Vec::new, |f| f.constants());
     if let Some((constant, _)) = constants.iter().find(|(c, _)| c.dimension.has_time()) {
@@ -93,14 +119,17 @@ pub fn fit(case: &Case, impacts: &[Impact]) -> Result<Fit> {
             ),
         });
     }
-    let rebounded = |i: &&Impact| i.summary.status == Status::Ok;
-    let used: Vec<&Impact> = impacts.iter().filter(rebounded).collect();
-    let speed = |i: &Impact| i.summary.velocity_m_s;
-    let speeds: Vec<f64> = used.iter().map(|i| speed(i)).collect();
+    let elastic_scale = Scale::elastic(&case.material, case.radius);
+    let (used, skipped) = usable(impacts, &elastic_scale);
+    let speeds: Vec<f64> = used.iter().map(|i| i.summary.velocity_m_s).collect();
     let top = speeds.iter().copied().fold(0.0, f64::max);
     if used.is_empty() {
+        let reasons: Vec<String> = skipped
+            .iter()
+            .map(|s| format!("that at {} m/s {}", s.velocity, s.why))
+            .collect();
         return Err(Error::Fit {
-            reason: "none of the impacts rebounded".to_owned(),
+            reason: format!("none of the impacts can be used: {}", reasons.join("; ")),
         });
     }
     let point = case
@@ -108,20 +137,17 @@ pub fn fit(case: &Case, impacts: &[Impact]) -> Result<Fit> {
         .yield_point(case.radius, crate::material::YIELD_PRESSURE_RATIO);
     let scale = Scale::of(&case.material, case.radius);
     let yielding = scale.filter(|_| point.is_some_and(|p| top > p.velocity));
-    let reduce = |scale: &Scale| -> Result<Vec<Run>> {
-        let mut runs = used
+    let reduce = |scale: &Scale| {
+        let mut runs: Vec<Run> = used
             .iter()
-            .map(|i| Run::reduce(i, scale))
-            .collect::<Result<Vec<_>>>()?;
+            .filter_map(|i| Run::reduce(i, scale).ok())
+            .collect();
         runs.sort_by(|a, b| a.velocity.total_cmp(&b.velocity));
-        Ok(runs)
+        runs
     };
-    let outcome = match yielding {
-        None => {
-            let scale = Scale::elastic(&case.material, case.radius);
-            elastic(case, &reduce(&scale)?, &scale)
-        }
-        Some(scale) => fit_both(&reduce(&scale)?, &scale)?,
+    let (outcome, missing) = match yielding {
+        None => (elastic(case, &reduce(&elastic_scale), &elastic_scale), None),
+        Some(scale) => fit_both(&reduce(&scale), &scale)?,
     };
     let most = used
         .iter()
@@ -131,12 +157,25 @@ pub fn fit(case: &Case, impacts: &[Impact]) -> Result<Fit> {
         outcome,
         flattening: most / case.radius,
         velocities: [speeds.iter().copied().fold(f64::INFINITY, f64::min), top],
-        skipped: impacts
-            .iter()
-            .filter(|i| !rebounded(i))
-            .map(speed)
-            .collect(),
+        tolerance: case.tolerance,
+        skipped,
+        missing,
     })
+}
+
+/// Impacts that can be used, and those that cannot, with the reasons; whether one can does not depend on the scale.
+fn usable<'a>(impacts: &'a [Impact], scale: &Scale) -> (Vec<&'a Impact>, Vec<Skipped>) {
+    let (mut used, mut skipped) = (Vec::new(), Vec::new());
+    for impact in impacts {
+        match Run::reduce(impact, scale) {
+            Ok(_) => used.push(impact),
+            Err(why) => skipped.push(Skipped {
+                velocity: impact.summary.velocity_m_s,
+                why,
+            }),
+        }
+    }
+    (used, skipped)
 }
 
 fn elastic(case: &Case, runs: &[Run], scale: &Scale) -> Outcome {
@@ -145,7 +184,8 @@ fn elastic(case: &Case, runs: &[Run], scale: &Scale) -> Outcome {
     Outcome::Elastic { law, quality }
 }
 
-fn fit_both(runs: &[Run], scale: &Scale) -> Result<Outcome> {
+/// Both forms, or the one that is found, with the reason why the other is not.
+fn fit_both(runs: &[Run], scale: &Scale) -> Result<(Outcome, Option<String>)> {
     let units = scale.units();
     let of_closed_form = |runs: &[Run], density| closed_form(runs, units, density);
     let of_spline = |runs: &[Run], density| spline(runs, units, density);
@@ -153,10 +193,20 @@ fn fit_both(runs: &[Run], scale: &Scale) -> Result<Outcome> {
         || choose(runs, scale, of_closed_form),
         || choose(runs, scale, of_spline),
     );
-    Ok(Outcome::Yielding {
-        closed_form: Box::new(closed_form?),
-        spline: Box::new(spline?),
-    })
+    let missing = match (&closed_form, &spline) {
+        (Err(error), Ok(_)) => Some(format!("closed form: {error}")),
+        (Ok(_), Err(error)) => Some(format!("spline: {error}")),
+        (Ok(_), Ok(_)) | (Err(_), Err(_)) => None,
+    };
+    let (closed_form, spline) = match (closed_form, spline) {
+        (Err(error), Err(_)) => return Err(error),
+        (closed_form, spline) => (closed_form.ok(), spline.ok()),
+    };
+    let outcome = Outcome::Yielding {
+        closed_form: closed_form.map(Box::new),
+        spline: spline.map(Box::new),
+    };
+    Ok((outcome, missing))
 }
 
 /// Closed form and its free numbers for `runs`, with an inertia term if a density is given.
@@ -165,7 +215,11 @@ fn closed_form(
     units: YieldUnits,
     density: Option<f64>,
 ) -> Result<(ClosedFormFit, Vec<f64>)> {
-    let form = ClosedFormFit { units, density };
+    let form = ClosedFormFit {
+        units,
+        density,
+        runs: runs.len(),
+    };
     let weights = vec![1.0; runs.len()];
     let free = solve::solve(&Objective {
         form: &form,
@@ -186,7 +240,8 @@ fn spline(runs: &[Run], units: YieldUnits, density: Option<f64>) -> Result<(Spli
         runs,
         weights: &weights,
     };
-    let free = solve::polish(&objective, &knotted.start())?;
+    let start = solve::admissible(&objective, &knotted.start())?;
+    let free = solve::polish(&objective, &start)?;
     Ok((knotted, free))
 }
 
@@ -199,9 +254,11 @@ where
     let (still, free) = again(runs, None)?;
     if runs.len() > 1 {
         let density = Some(scale.density());
-        let (moving, more) = again(runs, density)?;
         let bound = (1.0 - INERTIA_GAIN) * worst(&still, &free, runs, scale)?;
-        if worst(&moving, &more, runs, scale)? <= bound {
+        // a form that finds no law with the term has none
+        if let Ok((moving, more)) = again(runs, density)
+            && worst(&moving, &more, runs, scale).is_ok_and(|worst| worst <= bound)
+        {
             return finish(&moving, &more, runs, scale, |runs| again(runs, density));
         }
     }
@@ -239,8 +296,8 @@ fn finish<F: Form>(
     let law = law_of(form, free, runs, scale)?;
     Ok(FittedForm {
         quality: runs.iter().map(|r| Quality::of(&law, r, scale)).collect(),
-        intervals: confidence::intervals(form, runs, free)?,
-        left_out: confidence::left_out(runs, again)?,
+        intervals: confidence::intervals(form, runs, free),
+        left_out: confidence::left_out(runs, again),
         law,
     })
 }

@@ -66,6 +66,8 @@ impl Added {
 
 /// Newton steps allowed for the turning point.
 const NEWTON_STEPS: usize = 60;
+/// Relative step between rounded turning points that is as good as none.
+const ROUNDING: f64 = 1e-8;
 /// Panels of the loading time.
 const PANELS: usize = 2;
 
@@ -104,18 +106,21 @@ fn turning_point<L: Loading>(loading: &L, added: &Added, energy: f64, guess: f64
         false => loading.weighted_work(w, |w| added.factor(w)),
     };
     let mut w = guess;
+    let mut last = f64::INFINITY;
     for _ in 0..NEWTON_STEPS {
         let step = (work(w) - energy) / (loading.force(w) * added.factor(w));
         let next = (w - step).clamp(0.3 * w, 4.0 * w);
         if !next.is_finite() {
             return None;
         }
-        if (next - w).abs() <= 1e-13 * w {
+        last = (next - w).abs() / w;
+        if last <= 1e-13 {
             return Some(next);
         }
         w = next;
     }
-    None
+    // sums over panels are not smooth to the last digits, between which steps may go to and fro
+    (last <= ROUNDING).then_some(w)
 }
 
 /// What loading takes and reaches.

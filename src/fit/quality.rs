@@ -3,6 +3,7 @@
 use super::run::{Point, Run, Scale};
 use crate::contact::NormalLaw;
 use crate::contact::rebound::rebound;
+use crate::curve::restitution_error;
 
 /// Errors of a law on one impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,9 +16,9 @@ pub struct Quality {
     pub max_displacement: f64,
     /// delta_res, over delta*.
     pub residual_displacement: f64,
-    /// e, relative.
+    /// e, relative to itself or to [`crate::curve::LEAST_RESTITUTION`].
     pub restitution: f64,
-    /// Contact time, relative.
+    /// Contact time, relative; 0 where the body sticks, whose contact does not end.
     pub contact_time: f64,
     /// Root mean square force along loading, over F*.
     pub loading_force: f64,
@@ -43,7 +44,7 @@ impl Quality {
         law.force(x(run.max_flattening), &mut pressed);
         let unloading =
             |(w, f): &(f64, f64)| (law.force(x(*w), &mut pressed.clone()) / top - f).powi(2);
-        let rms = |squares: f64, points: usize| (squares / points as f64).sqrt();
+        let rms = |squares: f64, points: usize| (squares / points.max(1) as f64).sqrt();
         let most = run.max_flattening * scale.displacement;
         Quality {
             velocity: run.velocity,
@@ -51,8 +52,11 @@ impl Quality {
             max_displacement: hit.max_displacement / most - 1.0,
             residual_displacement: (hit.residual_displacement - run.residual * scale.displacement)
                 / most,
-            restitution: hit.restitution / run.restitution - 1.0,
-            contact_time: hit.contact_time / (run.contact_time * scale.time) - 1.0,
+            restitution: restitution_error(hit.restitution, run.restitution),
+            contact_time: match run.sticks {
+                true => 0.0,
+                false => hit.contact_time / (run.contact_time * scale.time) - 1.0,
+            },
             loading_force: rms(run.loading.iter().map(loading).sum(), run.loading.len()),
             unloading_force: rms(
                 run.unloading.iter().map(unloading).sum(),

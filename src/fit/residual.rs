@@ -5,6 +5,7 @@ use super::pulse::{Added, Pulse};
 use super::run::{Point, Run};
 use crate::contact::elastoplastic::Elastoplastic;
 use crate::contact::loading::Loading;
+use crate::curve::restitution_error;
 
 /// Relative tolerances: a residual is an error over its tolerance, so these are the weights.
 ///
@@ -102,7 +103,11 @@ fn push<L: Loading>(
         all.extend(run.loading.iter().map(error));
     }
     if part != Part::Loading {
-        all.push(figure(pulse.restitution / run.restitution - 1.0));
+        let restitution = restitution_error(pulse.restitution, run.restitution);
+        all.push(figure(restitution));
+        if run.sticks {
+            return Some(());
+        }
         let recovered = run.max_flattening - run.residual;
         all.push(((pulse.flattening - pulse.residual) / recovered - 1.0) / tolerance::RECOVERED);
         all.push((pulse.time / run.contact_time - 1.0) / tolerance::TIME);

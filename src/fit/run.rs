@@ -3,7 +3,6 @@
 use crate::contact::elastoplastic::YieldUnits;
 use crate::curve::{Impact, Status};
 use crate::material::{Material, YIELD_PRESSURE_RATIO};
-use crate::{Error, Result};
 use std::f64::consts::PI;
 
 /// Points a curve is resampled to on each branch, evenly over its displacements.
@@ -93,6 +92,8 @@ pub struct Run {
     pub velocity: f64,
     /// Incident energy.
     pub energy: f64,
+    /// Whether the body hardly came back: contact time, residual and unloading then say nothing.
+    pub sticks: bool,
     /// F*.
     pub max_force: f64,
     /// delta*.
@@ -109,36 +110,40 @@ pub struct Run {
     pub unloading: Vec<(f64, f64)>,
 }
 
+/// Restitution below which a body counts as sticking: a millionth of the energy comes back.
+const STICKING: f64 = 1e-3;
+
 impl Run {
-    /// Reduce an impact.
+    /// Reduce an impact; one that sticks (e = 0) has its loading and its restitution.
     ///
     /// # Errors
-    /// [`Error::Fit`] if the impact did not rebound, or its curve or figures do not describe an impact.
-    pub fn reduce(impact: &Impact, scale: &Scale) -> Result<Self> {
+    /// Why it cannot be used: it did not end, or its curve or figures do not describe an impact.
+    pub fn reduce(impact: &Impact, scale: &Scale) -> std::result::Result<Self, String> {
         let s = &impact.summary;
-        let refuse = |why: &str| {
-            Err(Error::Fit {
-                reason: format!("the impact at {} m/s {why}", s.velocity_m_s),
-            })
-        };
-        if s.status != Status::Ok {
-            return refuse("did not rebound; leave it out or run it longer");
+        let refuse = |why: &str| Err(why.to_owned());
+        match &s.status {
+            Status::Ok => {}
+            Status::NoRebound => return refuse("did not rebound in its time"),
+            Status::Failed(why) => return Err(format!("failed: {why}")),
         }
         let positive = [
             s.velocity_m_s,
             s.max_force_n,
             s.max_displacement_m,
             s.contact_time_s,
-            s.restitution,
         ];
         if positive.iter().any(|x| !(*x > 0.0 && x.is_finite()))
             || !s.residual_displacement_m.is_finite()
         {
             return refuse("has a figure that is not positive and finite");
         }
+        if !(0.0..=1.01).contains(&s.restitution) {
+            return refuse("has a restitution that is not between 0 and 1");
+        }
+        let sticks = s.restitution < STICKING;
         let turn = impact.curve.turning_point();
         let samples = &impact.curve.samples;
-        if turn == 0 || turn + 1 >= samples.len() {
+        if turn == 0 || (turn + 1 >= samples.len() && !sticks) {
             return refuse("has a curve without loading or without unloading");
         }
         let most = samples[turn].displacement_m;
@@ -164,13 +169,17 @@ impl Run {
         Ok(Run {
             velocity: s.velocity_m_s,
             energy: scale.energy(s.velocity_m_s),
+            sticks,
             max_force: s.max_force_n / scale.force,
             max_flattening: s.max_displacement_m / scale.displacement,
             residual: s.residual_displacement_m / scale.displacement,
             restitution: s.restitution,
             contact_time: s.contact_time_s / scale.time,
             loading: loading.collect(),
-            unloading: unloading.collect(),
+            unloading: match sticks {
+                true => Vec::new(),
+                false => unloading.collect(),
+            },
         })
     }
 }

@@ -49,16 +49,59 @@ impl<F: Form> CostFunction for Slice<'_, F> {
     }
 }
 
+/// Radii of the shells around a start that are searched for an admissible law, in spreads.
+const SHELLS: [f64; 10] = [0.1, 0.2, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0];
+
 /// Free numbers at the least cost: simplex on the loading, simplex on the unloading, then all together.
 ///
 /// # Errors
-/// [`Error::Fit`] when the start is not admissible or a solver stops without a result.
+/// [`Error::Fit`] when no admissible law lies near the start or a solver stops without a result.
 pub fn solve<F: Form>(objective: &Objective<'_, F>) -> Result<Vec<f64>> {
-    let mut free = objective.form.start();
+    let mut free = admissible(objective, &objective.form.start())?;
     let split = free.len() - UNLOADING;
     free = simplex(objective, Part::Loading, &free, 0..split)?;
     free = simplex(objective, Part::Unloading, &free, split..free.len())?;
     polish(objective, &free)
+}
+
+/// `start` if it is admissible, else the best point of the nearest shell around it that holds one: one number moved, or two.
+///
+/// # Errors
+/// [`Error::Fit`] when no shell does.
+pub fn admissible<F: Form>(objective: &Objective<'_, F>, start: &[f64]) -> Result<Vec<f64>> {
+    let cost = |free: &[f64]| objective.cost(free, Part::All);
+    if cost(start).is_finite() {
+        return Ok(start.to_vec());
+    }
+    let spread = objective.form.spread();
+    for radius in SHELLS {
+        let mut best = (f64::INFINITY, Vec::new());
+        let mut moves: Vec<Vec<(usize, f64)>> = Vec::new();
+        for i in 0..start.len() {
+            for side in [-radius, radius] {
+                moves.push(vec![(i, side)]);
+                for j in 0..i {
+                    moves.extend([-radius, radius].map(|other| vec![(i, side), (j, other)]));
+                }
+            }
+        }
+        for step in moves {
+            let mut free = start.to_vec();
+            for (i, side) in step {
+                free[i] += side * spread[i];
+            }
+            let here = cost(&free);
+            if here < best.0 {
+                best = (here, free);
+            }
+        }
+        if best.0.is_finite() {
+            return Ok(best.1);
+        }
+    }
+    Err(Error::Fit {
+        reason: "no admissible law near the start".to_owned(),
+    })
 }
 
 /// Nelder-Mead over `range` of the free numbers.
@@ -106,7 +149,8 @@ fn slice_range(some: &[f64], whole: &[f64], part: Part) -> std::ops::Range<usize
     }
 }
 
-/// Levenberg-Marquardt from `free` until the cost no longer falls.
+/// Levenberg-Marquardt from `free` until the cost no longer falls, or where the edge of what is admissible leaves no
+/// derivatives.
 ///
 /// # Errors
 /// [`Error::Fit`] when `free` is not admissible.
@@ -114,8 +158,15 @@ pub fn polish<F: Form>(objective: &Objective<'_, F>, free: &[f64]) -> Result<Vec
     let mut free = free.to_vec();
     let mut damping = 1e-3;
     let mut cost = objective.cost(&free, Part::All);
+    if !cost.is_finite() {
+        return Err(Error::Fit {
+            reason: "no admissible law near the start".to_owned(),
+        });
+    }
     for _ in 0..POLISH_STEPS {
-        let (jacobian, residuals) = jacobian(objective, &free)?;
+        let Some((jacobian, residuals)) = jacobian(objective, &free) else {
+            break;
+        };
         let normal = jacobian.transpose() * &jacobian;
         let downhill = jacobian.transpose() * residuals;
         let mut fall = 0.0;
@@ -145,15 +196,12 @@ pub fn polish<F: Form>(objective: &Objective<'_, F>, free: &[f64]) -> Result<Vec
     Ok(free)
 }
 
-/// Residuals and their derivatives by forward differences (backward where forward is not admissible).
+/// Residuals and their derivatives by forward differences (backward where forward is not admissible); `None` where neither is.
 fn jacobian<F: Form>(
     objective: &Objective<'_, F>,
     free: &[f64],
-) -> Result<(DMatrix<f64>, DVector<f64>)> {
-    let lost = || Error::Fit {
-        reason: "no admissible law near the start".to_owned(),
-    };
-    let here = objective.residuals(free, Part::All).ok_or_else(lost)?;
+) -> Option<(DMatrix<f64>, DVector<f64>)> {
+    let here = objective.residuals(free, Part::All)?;
     let mut matrix = DMatrix::zeros(here.len(), free.len());
     for j in 0..free.len() {
         let at = |step: f64| {
@@ -161,12 +209,10 @@ fn jacobian<F: Form>(
             moved[j] += step;
             objective.residuals(&moved, Part::All).map(|r| (step, r))
         };
-        let (step, there) = at(DIFFERENCE)
-            .or_else(|| at(-DIFFERENCE))
-            .ok_or_else(lost)?;
+        let (step, there) = at(DIFFERENCE).or_else(|| at(-DIFFERENCE))?;
         for i in 0..here.len() {
             matrix[(i, j)] = (there[i] - here[i]) / step;
         }
     }
-    Ok((matrix, DVector::from_vec(here)))
+    Some((matrix, DVector::from_vec(here)))
 }

@@ -60,6 +60,10 @@ pub struct LawFile {
     pub name: String,
     /// Form that is used unless another is asked for.
     pub form: Form,
+    /// What a user of the law has to know: speeds that were not used, a form that was not found, left-out speeds that are
+    /// missed.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<String>,
     /// Material.
     pub material: MaterialTable,
     /// Units of the constants; absent for an elastic law.
@@ -67,6 +71,9 @@ pub struct LawFile {
     pub yield_point: Option<YieldTable>,
     /// Range of the impacts.
     pub valid: ValidTable,
+    /// What counts as missed; absent from files of versions before 0.2.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub thresholds: Option<ThresholdTable>,
     /// Where the law comes from.
     pub provenance: ProvenanceTable,
     /// Hertz's law.
@@ -84,6 +91,22 @@ pub struct LawFile {
 #[derive(Deserialize)]
 struct Head {
     schema: Option<i64>,
+}
+
+/// Most characters of a name.
+const LONGEST_NAME: usize = 120;
+
+/// `text` with everything but letters, digits, blanks and `_ - . + ( )` replaced by `_`, and a letter or digit in front: fit
+/// for a file's name and for a comment of any language.
+#[must_use]
+pub fn plain(text: &str) -> String {
+    let keep = |c: char| c.is_alphanumeric() || " _-.+()".contains(c);
+    let mut plain: String = text.chars().take(LONGEST_NAME).collect();
+    plain = plain.replace(|c| !keep(c), "_");
+    if !plain.starts_with(char::is_alphanumeric) {
+        plain.insert(0, 'x');
+    }
+    plain
 }
 
 /// A constant that a law refuses, with its key in the file.
@@ -113,6 +136,7 @@ impl LawFile {
             return Err(document.reject("schema", allowed));
         }
         let file: LawFile = document.parse()?;
+        file.check_texts(document)?;
         file.check_numbers(document)?;
         for form in [Form::Hertz, Form::ClosedForm, Form::Spline] {
             let absent = match form {
@@ -134,6 +158,26 @@ impl LawFile {
             }
         }
         Ok(file)
+    }
+
+    /// Texts are one line of plain characters: they go into file names and into the sources of other codes.
+    fn check_texts(&self, document: &Document) -> Result<()> {
+        let from = &self.provenance;
+        for (key, text) in [
+            ("name", &self.name),
+            ("provenance.program", &from.program),
+            ("provenance.case", &from.case),
+        ] {
+            if plain(text) != *text {
+                let must = "must be one line of letters, digits, blanks and _ - . + ( ) that begins with a letter or digit";
+                return Err(document.reject(key, must));
+            }
+        }
+        let digits = from.case_sha256.chars().all(|c| c.is_ascii_hexdigit());
+        if !digits || from.case_sha256.len() > 64 {
+            return Err(document.reject("provenance.case_sha256", "must be hexadecimal digits"));
+        }
+        Ok(())
     }
 
     /// Material and range are finite and positive, and the yield point is that of the material.

@@ -68,6 +68,18 @@ pub struct ValidTable {
     pub velocity_max_m_s: f64,
 }
 
+/// `[thresholds]`: relative errors from which on the law counts as missed, and a left-out speed as a warning.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ThresholdTable {
+    /// Accuracy of the impacts, the case's.
+    pub tolerance: f64,
+    /// Largest error of F*, delta* and e at any speed; beyond it `fit` and `run` end with exit code 1.
+    pub error: f64,
+    /// The same at a speed left out of the fit; beyond it there is a warning.
+    pub left_out: f64,
+}
+
 /// `[provenance]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -80,7 +92,7 @@ pub struct ProvenanceTable {
     pub case_sha256: String,
     /// Radius of the sphere that was simulated.
     pub radius_m: f64,
-    /// Impacts that were not used because they did not rebound.
+    /// Impacts that were not used.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub skipped_velocities_m_s: Vec<f64>,
 }
@@ -128,7 +140,7 @@ pub struct ClosedFormTable {
     pub inertia: Option<f64>,
     /// Unloading.
     pub unloading: UnloadingTable,
-    /// 95 % intervals; absent for a single speed.
+    /// 95 % intervals; absent for fewer than five speeds.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub intervals: Option<ClosedFormIntervals>,
     /// Errors, one row a speed.
@@ -168,7 +180,7 @@ pub struct SplineTable {
     pub inertia: Option<f64>,
     /// Unloading.
     pub unloading: UnloadingTable,
-    /// 95 % intervals; absent for a single speed.
+    /// 95 % intervals; absent for fewer than five speeds.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub intervals: Option<SplineIntervals>,
     /// Errors, one row a speed.

@@ -1,9 +1,10 @@
 //! Writing of law files: a fit as tables, with the equations on top.
 
-use super::file::{Form, LawFile, SCHEMA};
+use super::file::{Form, LawFile, SCHEMA, plain};
 use super::table::{
     ClosedFormIntervals, ClosedFormTable, HertzTable, MaterialTable, ProvenanceTable,
-    SplineIntervals, SplineTable, UnloadingIntervals, UnloadingTable, ValidTable, YieldTable,
+    SplineIntervals, SplineTable, ThresholdTable, UnloadingIntervals, UnloadingTable, ValidTable,
+    YieldTable,
 };
 use crate::Result;
 use crate::case::Case;
@@ -12,8 +13,9 @@ use crate::contact::loading::{Loading, SoftenedHertz};
 use crate::contact::spline::SplineLoading;
 use crate::contact::unloading::Unloading;
 use crate::files::write_atomic;
+use crate::fit::confidence::LeftOut;
 use crate::fit::quality::Quality;
-use crate::fit::{Fit, FittedForm, Outcome, THRESHOLD};
+use crate::fit::{Fit, FittedForm, Outcome, left_out_bound, threshold};
 use crate::material::flow::FlowConstants;
 use crate::material::{Material, YIELD_PRESSURE_RATIO};
 use std::path::Path;
@@ -38,8 +40,9 @@ Reloading goes back up to delta_m, then along the loading curve.
 Inertia, on top of first loading at the rate v (no key inertia: the impacts do not show it):
                        F_i = R^2 inertia density_kg_m3 v^2 sqrt((delta - delta_1)/R), 0 up to delta_1.
                        `law eval` and beds use the law without it.
-Errors (quality, left_out) are relative: law over simulation less 1; left_out: fitted without that speed.
-Intervals: 95 %, bootstrap over the impacts.
+Errors (quality, left_out) are relative: law over simulation less 1, that of e below 0.1 over 0.1; left_out: fitted without
+that speed. Intervals: 95 %, bootstrap over five impacts or more. With one speed residual_power and exponent_strain are held at
+0.54 (Jackson, Green and Marghitu 2010) and 7.5. Beyond thresholds.error `fit` ends with exit code 1.
 ";
 
 impl LawFile {
@@ -48,8 +51,9 @@ impl LawFile {
     pub fn of(fit: &Fit, case: &Case, program: &str) -> Self {
         let mut file = LawFile {
             schema: SCHEMA,
-            name: case.name.clone(),
+            name: plain(&case.name),
             form: Form::Hertz,
+            warnings: Vec::new(),
             material: material_table(&case.material),
             yield_point: None,
             valid: ValidTable {
@@ -57,12 +61,17 @@ impl LawFile {
                 velocity_min_m_s: fit.velocities[0],
                 velocity_max_m_s: fit.velocities[1],
             },
+            thresholds: Some(ThresholdTable {
+                tolerance: fit.tolerance,
+                error: threshold(fit.tolerance),
+                left_out: left_out_bound(fit.tolerance),
+            }),
             provenance: ProvenanceTable {
-                program: program.to_owned(),
-                case: case.name.clone(),
+                program: plain(program),
+                case: plain(&case.name),
                 case_sha256: case.hash.clone(),
                 radius_m: case.radius,
-                skipped_velocities_m_s: fit.skipped.clone(),
+                skipped_velocities_m_s: fit.skipped.iter().map(|s| s.velocity).collect(),
             },
             hertz: None,
             closed_form: None,
@@ -74,18 +83,75 @@ impl LawFile {
                 closed_form,
                 spline,
             } => {
-                let units = closed_form.law.units();
-                file.yield_point = Some(YieldTable {
+                let units = match (closed_form, spline) {
+                    (Some(form), _) => Some(form.law.units()),
+                    (None, form) => form.as_ref().map(|form| form.law.units()),
+                };
+                file.yield_point = units.map(|units| YieldTable {
                     pressure_ratio: YIELD_PRESSURE_RATIO,
                     displacement_over_radius: units.flattening,
                     force_over_radius2_pa: units.force,
                 });
-                file.form = preferred(worst(&closed_form.quality), worst(&spline.quality));
-                file.closed_form = Some(closed_form_table(closed_form));
-                file.spline = Some(spline_table(spline));
+                file.form = preferred(
+                    closed_form.as_ref().map(|form| worst(&form.quality)),
+                    spline.as_ref().map(|form| worst(&form.quality)),
+                    threshold(fit.tolerance),
+                );
+                file.closed_form = closed_form.as_deref().map(closed_form_table);
+                file.spline = spline.as_deref().map(spline_table);
             }
         }
+        file.warnings = file.what_to_know(fit);
         file
+    }
+
+    /// Impacts that were not used, a form that was not found, left-out speeds that the form in use misses.
+    fn what_to_know(&self, fit: &Fit) -> Vec<String> {
+        let mut warnings: Vec<String> = fit
+            .skipped
+            .iter()
+            .map(|s| format!("the impact at {} m/s {} and is left out", s.velocity, s.why))
+            .collect();
+        warnings.extend(fit.missing.iter().map(|why| format!("no {why}")));
+        let bound = left_out_bound(fit.tolerance);
+        let left_out: Vec<&LeftOut> = match &fit.outcome {
+            Outcome::Elastic { .. } => Vec::new(),
+            Outcome::Yielding {
+                closed_form,
+                spline,
+            } => match self.form {
+                Form::Spline => spline.iter().flat_map(|form| &form.left_out).collect(),
+                Form::Hertz | Form::ClosedForm => {
+                    closed_form.iter().flat_map(|form| &form.left_out).collect()
+                }
+            },
+        };
+        for one in left_out {
+            let worst = one.worst();
+            // a NaN is beyond every bound
+            if worst > bound || worst.is_nan() {
+                let said = match worst.is_nan() {
+                    true => "find no law for it".to_owned(),
+                    false => format!("miss it by {:.0} %", 100.0 * worst),
+                };
+                warnings.push(format!(
+                    "left out, {} m/s is not predicted: the other speeds {said} (bound {:.0} %)",
+                    one.velocity,
+                    100.0 * bound
+                ));
+            }
+        }
+        warnings
+    }
+
+    /// Largest error with which the law counts as good.
+    #[must_use]
+    pub fn threshold(&self) -> f64 {
+        match &self.thresholds {
+            Some(thresholds) => thresholds.error,
+            // files without the table come from cases of this tolerance
+            None => threshold(0.02),
+        }
     }
 
     /// The file's text: comments with the equations, then the tables.
@@ -126,12 +192,15 @@ impl LawFile {
     }
 }
 
-/// The closed form, which travels further, unless it misses the threshold and the spline is nearer.
-fn preferred(closed_form: f64, spline: f64) -> Form {
-    if closed_form <= THRESHOLD || closed_form <= spline {
-        Form::ClosedForm
-    } else {
-        Form::Spline
+/// The closed form, which travels further, unless it misses the threshold and the spline is nearer; or the one there is. Both
+/// by their largest errors.
+fn preferred(closed_form: Option<f64>, spline: Option<f64>, threshold: f64) -> Form {
+    match (closed_form, spline) {
+        (Some(closed_form), Some(spline)) if closed_form > threshold && closed_form > spline => {
+            Form::Spline
+        }
+        (None, Some(_)) => Form::Spline,
+        (Some(_), _) | (None, None) => Form::ClosedForm,
     }
 }
 

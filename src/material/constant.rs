@@ -135,7 +135,7 @@ impl Range {
             Range::Positive => "must be positive".to_owned(),
             Range::NotNegative => "must not be negative".to_owned(),
             Range::BelowYoungModulus => format!(
-                "must be positive and below young_modulus ({})",
+                "must be positive and below young_modulus ({}); check the unit of both",
                 engineering(young_modulus, "Pa", 4)
             ),
         }

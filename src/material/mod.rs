@@ -14,6 +14,9 @@ use stress::Moduli;
 /// Peak Hertz pressure at first yield over the yield strength (Johnson 1985, section 6.3).
 pub const YIELD_PRESSURE_RATIO: f64 = 1.6;
 
+/// Mean contact pressure over yield strength when fully plastic, used for estimates only (Tabor).
+pub const PLASTIC_PRESSURE_RATIO: f64 = 2.8;
+
 /// Material of a particle, SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Material {
@@ -55,6 +58,24 @@ impl Material {
     #[must_use]
     pub fn sphere_mass(&self, radius: f64) -> f64 {
         4.0 / 3.0 * PI * radius.powi(3) * self.density
+    }
+
+    /// Flattening over the radius of a sphere that hits a rigid plane at `velocity` (m/s): were it elastic (Hertz), and were it
+    /// fully plastic with the mean pressure [`PLASTIC_PRESSURE_RATIO`] Y (0 for an elastic body).
+    ///
+    /// $$ \delta_e = \left(\tfrac{15 m V^2}{16 E^\ast \sqrt{R}}\right)^{2/5}, \quad
+    ///    \delta_p = V \sqrt{\tfrac{m}{2 \pi R\ 2.8 Y}} $$
+    #[must_use]
+    pub fn flattening_limits(&self, velocity: f64) -> [f64; 2] {
+        let e = self.young_modulus;
+        let e_star = self.contact_modulus() / e;
+        let speed = velocity / (e / self.density).sqrt();
+        let mass = 4.0 / 3.0 * PI;
+        let elastic = (15.0 * mass * speed * speed / (16.0 * e_star)).powf(0.4);
+        let plastic = self.flow.map_or(0.0, |flow| {
+            speed * (mass / (2.0 * PI * PLASTIC_PRESSURE_RATIO * flow.yield_strength() / e)).sqrt()
+        });
+        [elastic, plastic]
     }
 
     /// Yield point of a sphere of `radius` for a peak pressure $p_0 = c Y$ at first yield.

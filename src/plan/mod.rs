@@ -8,6 +8,7 @@ use crate::material::flow::YIELD_STRENGTH;
 use crate::material::{Flow, Material, YIELD_PRESSURE_RATIO};
 use crate::scheme::Scheme;
 use crate::unit::{engineering, significant};
+use crate::{Error, Result};
 use std::f64::consts::PI;
 
 mod grid;
@@ -86,25 +87,15 @@ pub struct Plan {
     pub seconds: f64,
 }
 
-/// Mean contact pressure over yield strength when fully plastic, used for estimates only (Tabor).
-const PLASTIC_PRESSURE_RATIO: f64 = 2.8;
-
-/// Size of an impact from the elastic (Hertz) and the fully plastic limit.
+/// Size of an impact from the elastic (Hertz) and the fully plastic limit ([`Material::flattening_limits`]).
 ///
-/// $$ \delta_e = \left(\tfrac{15 m V^2}{16 E^\ast \sqrt{R}}\right)^{2/5}, \quad
-///    \delta_p = V \sqrt{\tfrac{m}{2 \pi R\ 2.8 Y}}, \quad \delta = (\delta_e^3 + \delta_p^3)^{1/3} $$
+/// $$ \delta = (\delta_e^3 + \delta_p^3)^{1/3} $$
 ///
 /// An estimate for laying a grid, within some 20 % of the simulated displacement; nothing else depends on it.
 #[must_use]
 pub fn estimate(material: &Material, velocity: f64) -> Estimate {
-    let e = material.young_modulus;
-    let e_star = material.contact_modulus() / e;
-    let speed = velocity / (e / material.density).sqrt();
-    let mass = 4.0 / 3.0 * PI;
-    let elastic = (15.0 * mass * speed * speed / (16.0 * e_star)).powf(0.4);
-    let plastic = material.flow.map_or(0.0, |flow| {
-        speed * (mass / (2.0 * PI * PLASTIC_PRESSURE_RATIO * flow.yield_strength() / e)).sqrt()
-    });
+    let speed = velocity / (material.young_modulus / material.density).sqrt();
+    let [elastic, plastic] = material.flattening_limits(velocity);
     let sum = elastic.powi(3) + plastic.powi(3);
     let displacement = sum.cbrt();
     let plastic_share = plastic.powi(3) / sum;
@@ -113,6 +104,74 @@ pub fn estimate(material: &Material, velocity: f64) -> Estimate {
         contact_radius: (displacement * (1.0 + plastic_share)).sqrt().min(1.0),
         contact_time: (2.94 - 0.64 * plastic_share) * displacement / speed,
     }
+}
+
+/// Least tolerance that is met in the section: with 54 cells a contact radius of a slight impact and 65 of one that flattens the
+/// body, about as many as those it was compared with.
+const LEAST_TOLERANCE: f64 = 1e-3;
+/// The same in three dimensions, with 20 cells a contact radius.
+const LEAST_SOLID_TOLERANCE: f64 = 5e-3;
+/// Fastest impacts over $\sqrt{E/\rho}$ that plans were compared for.
+const FASTEST_SHOWN: f64 = 0.5;
+/// Most material points of a run: some 40 GB.
+const MOST_POINTS: usize = 100_000_000;
+/// Longest predicted run, s: a month.
+const LONGEST_RUN: f64 = 2.6e6;
+
+/// Least relative tolerance that a plan at this normal speed meets: what the largest number of cells allows, and at high speeds what
+/// the smallest far cells do (15 times mach times their squared size).
+#[must_use]
+pub fn least_tolerance(case: &Case, velocity: f64) -> f64 {
+    let m = &case.material;
+    // faster ones run only where the file says that they are meant
+    let mach = (velocity / (m.young_modulus / m.density).sqrt()).min(FASTEST_SHOWN);
+    match geometry(case) {
+        Geometry::Axisymmetric => LEAST_TOLERANCE.max(15.0 * mach * LEAST_FAR_CELL.powi(2)),
+        Geometry::Quarter | Geometry::Half => LEAST_SOLID_TOLERANCE,
+    }
+}
+
+/// Plans of all speeds of a case, slowest first.
+///
+/// # Errors
+/// [`Error::Argument`] for a tolerance below the least one that is met, or a run that needs more memory or time than there is
+/// sense in.
+pub fn plans(case: &Case) -> Result<Vec<Plan>> {
+    let refuse = |key: &str, found: String, allowed: String| {
+        Err(Error::Argument {
+            argument: format!("{}: `{key}`", case.path.display()),
+            found,
+            allowed,
+        })
+    };
+    let mut plans = Vec::with_capacity(case.velocities.len());
+    for &velocity in &case.velocities {
+        let least = least_tolerance(case, velocity * case.angle.cos());
+        if case.tolerance < least {
+            let allowed = format!(
+                "must be at least {} at {velocity} m/s: no smaller one is shown to be met",
+                significant(least, 2)
+            );
+            return refuse("accuracy.tolerance", case.tolerance.to_string(), allowed);
+        }
+        let plan = plan(case, velocity);
+        let fits = plan.points <= MOST_POINTS;
+        if !fits || !plan.seconds.is_finite() || plan.seconds > LONGEST_RUN {
+            let found = format!(
+                "{} points and {} core seconds at {velocity} m/s",
+                significant(plan.points as f64, 3),
+                significant(plan.seconds, 3)
+            );
+            let allowed = format!(
+                "at most {} points and {} s, a month, are run; check the units, or ask for a larger tolerance",
+                significant(MOST_POINTS as f64, 2),
+                significant(LONGEST_RUN, 2)
+            );
+            return refuse("impact.velocities", found, allowed);
+        }
+        plans.push(plan);
+    }
+    Ok(plans)
 }
 
 /// Plan one impact of a case.
@@ -172,13 +231,16 @@ fn cells_per_flat_radius(severity: f64, tolerance: f64) -> f64 {
     28.0 * severity.min(1.0).powf(0.4) * (0.02 / tolerance).powf(0.28)
 }
 
+/// Smallest cells far from the contact, in R.
+const LEAST_FAR_CELL: f64 = 0.03;
+
 /// Size of cells far from the contact for a relative tolerance at a speed of `mach` times $\sqrt{E/\rho}$, in R: fast impacts
 /// send waves through the body that come back while it is in contact.
 ///
 /// Against 0.05 R, cells of 0.1 R change F* by 2.4 % at mach 0.16, by 0.6 % at 0.05 and 0.056, those of 0.07 R by 0.5 % at 0.16:
 /// about 15 times mach times the squared size, of which the formula asks for a third of the tolerance.
 fn far_cells(mach: f64, tolerance: f64) -> f64 {
-    (0.02 * tolerance / mach).sqrt().clamp(0.03, 0.1)
+    (0.02 * tolerance / mach).sqrt().clamp(LEAST_FAR_CELL, 0.1)
 }
 
 /// Grid for an expected impact.

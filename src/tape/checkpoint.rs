@@ -1,4 +1,7 @@
 //! Checkpoint: the file that holds a run under way, resumed by the same plan and program only.
+//!
+//! A file is [`MAGIC`], a SHA-256 of all that follows, the [`VERSION`], a digest of program and plan, the seconds taken
+//! so far, and the run. A file whose sum does not fit is never read any further.
 
 use super::{Keep, Tape};
 use crate::files::write_atomic;
@@ -8,9 +11,11 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// Version of what checkpoints hold: to be raised whenever a kept structure changes.
-pub const VERSION: u64 = 2;
-/// First bytes of a checkpoint; the first version had none.
-const MAGIC: [u8; 8] = *b"impactlw";
+pub const VERSION: u64 = 3;
+/// First bytes of a checkpoint; they change with the layout of its head.
+const MAGIC: [u8; 8] = *b"impactk3";
+/// Bytes of a SHA-256.
+const SUM: usize = 32;
 
 /// Where a run is kept while it is under way.
 #[derive(Debug, Clone)]
@@ -36,16 +41,18 @@ impl Checkpoint {
     }
 }
 
-/// What a checkpoint's file holds: nothing, a run of another version, plan or program, or a run and the seconds it had taken.
+/// What a checkpoint's file holds: nothing that is there, what cannot be trusted, a run of another program or plan, or a run
+/// and the seconds it had taken.
 enum Found {
     Nothing,
+    Damaged,
     Version(u64),
     Other,
     Run(Tape, f64),
 }
 
 /// How taking up a run ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub enum TakenUp {
     /// There was none.
     Nothing,
@@ -53,7 +60,7 @@ pub enum TakenUp {
     Version(u64),
     /// There was one of another plan or program.
     Other,
-    /// There was one that does not fit: the file is damaged.
+    /// There was one that cannot be read or whose sum does not fit: the file is damaged.
     Damaged,
     /// It goes on.
     Run,
@@ -103,35 +110,41 @@ impl<'a> Keeper<'a> {
     /// # Errors
     /// [`crate::Error::File`] when the file cannot be written.
     pub fn keep(&mut self, run: &impl Keep) -> Result<()> {
-        let mut tape = Tape::default();
-        MAGIC.save(&mut tape);
-        VERSION.save(&mut tape);
-        self.key.save(&mut tape);
-        (self.before + self.started.elapsed().as_secs_f64()).save(&mut tape);
-        run.save(&mut tape);
+        let seconds = self.before + self.started.elapsed().as_secs_f64();
+        let tape = sealed(VERSION, |tape| {
+            self.key.save(tape);
+            seconds.save(tape);
+            run.save(tape);
+        });
         write_atomic(&self.checkpoint.path, tape.as_bytes())?;
         self.last = Instant::now();
         Ok(())
     }
 
-    /// Take up the run that was kept; false, and `run` is not touched, when there is none of this plan.
+    /// Take up the run that was kept; false, and `run` is not touched, when there is none of this plan. What cannot be taken
+    /// up is said and begun anew.
     pub fn take_up<T: Keep + Clone>(&mut self, run: &mut T) -> bool {
-        let Found::Run(mut tape, seconds) = self.find() else {
-            return false;
-        };
         let mut taken = run.clone();
-        let fits = taken.load(&mut tape).is_some() && tape.is_at_end();
-        if fits {
-            *run = taken;
-            self.before = seconds;
-        }
-        fits
+        let path = self.checkpoint.path.display();
+        let why = match self.take_up_into(&mut taken) {
+            TakenUp::Run => {
+                *run = taken;
+                return true;
+            }
+            TakenUp::Nothing => return false,
+            TakenUp::Damaged => "is damaged".to_owned(),
+            TakenUp::Version(version) => format!("is of version {version}, not {VERSION}"),
+            TakenUp::Other => "is of another case or program".to_owned(),
+        };
+        tracing::warn!("{path} {why}: begun anew");
+        false
     }
 
     /// Take up the run that was kept into one that cannot be copied and is left half changed when it does not fit.
     pub fn take_up_into(&mut self, run: &mut impl Keep) -> TakenUp {
         match self.find() {
             Found::Nothing => TakenUp::Nothing,
+            Found::Damaged => TakenUp::Damaged,
             Found::Version(version) => TakenUp::Version(version),
             Found::Other => TakenUp::Other,
             Found::Run(mut tape, seconds) => {
@@ -146,23 +159,24 @@ impl<'a> Keeper<'a> {
 
     /// What the file holds.
     fn find(&self) -> Found {
-        let Ok(bytes) = std::fs::read(&self.checkpoint.path) else {
-            return Found::Nothing;
+        let bytes = match std::fs::read(&self.checkpoint.path) {
+            Ok(bytes) => bytes,
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Found::Nothing,
+            Err(_) => return Found::Damaged,
         };
-        let mut tape = Tape::from_bytes(bytes);
-        let (mut magic, mut version) = ([0u8; 8], 0u64);
-        let read = magic.load(&mut tape).is_some() && version.load(&mut tape).is_some();
-        if !read || magic != MAGIC {
-            return Found::Version(1);
+        let Some(mut tape) = unsealed(bytes) else {
+            return Found::Damaged;
+        };
+        let (mut version, mut key, mut seconds) = (0u64, [0u64; 4], 0.0);
+        match version.load(&mut tape) {
+            None => return Found::Damaged,
+            Some(()) if version != VERSION => return Found::Version(version),
+            Some(()) => {}
         }
-        if version != VERSION {
-            return Found::Version(version);
-        }
-        let (mut key, mut seconds) = ([0u64; 4], 0.0);
-        let read = key.load(&mut tape).is_some() && seconds.load(&mut tape).is_some();
-        match read && key == self.key {
-            true => Found::Run(tape, seconds),
-            false => Found::Other,
+        match key.load(&mut tape).and_then(|()| seconds.load(&mut tape)) {
+            None => Found::Damaged,
+            Some(()) if key != self.key => Found::Other,
+            Some(()) => Found::Run(tape, seconds),
         }
     }
 
@@ -171,6 +185,29 @@ impl<'a> Keeper<'a> {
         // a file that stays does no harm: it is resumed only by the same run, which ends as it did
         let _ = std::fs::remove_file(&self.checkpoint.path);
     }
+}
+
+/// A file of `version` with what `fill` writes, under its sum.
+fn sealed(version: u64, fill: impl FnOnce(&mut Tape)) -> Tape {
+    let mut tape = Tape::default();
+    tape.bytes.extend(MAGIC);
+    tape.bytes.extend([0; SUM]);
+    version.save(&mut tape);
+    fill(&mut tape);
+    let (head, summed) = tape.bytes.split_at_mut(MAGIC.len() + SUM);
+    head[MAGIC.len()..].copy_from_slice(&Sha256::digest(summed));
+    tape
+}
+
+/// The tape of a file, at the version; `None` when the file is none of ours or its sum does not fit.
+fn unsealed(bytes: Vec<u8>) -> Option<Tape> {
+    let (magic, rest) = bytes.split_at_checked(MAGIC.len())?;
+    let (sum, summed) = rest.split_at_checked(SUM)?;
+    let holds = magic == MAGIC && sum == &Sha256::digest(summed)[..];
+    holds.then(|| Tape {
+        at: MAGIC.len() + SUM,
+        bytes,
+    })
 }
 
 #[cfg(test)]
@@ -212,23 +249,6 @@ mod tests {
     }
 
     #[test]
-    fn a_file_of_another_version_is_told_by_its_version() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("c.bin");
-        let checkpoint = Checkpoint::new(&path, Duration::ZERO);
-        let mut keeper = Keeper::new(&checkpoint, "plan");
-        keeper.keep(&run()).unwrap();
-        let bytes = std::fs::read(&path).unwrap();
-        let later = [&MAGIC[..], &9u64.to_le_bytes(), &bytes[16..]].concat();
-        for (file, version) in [(&later[..], 9), (&bytes[16..], 1), (b"short", 1)] {
-            std::fs::write(&path, file).unwrap();
-            let mut fresh = Run::default();
-            assert_eq!(keeper.take_up_into(&mut fresh), TakenUp::Version(version));
-            assert_eq!(fresh, Run::default());
-        }
-    }
-
-    #[test]
     fn a_damaged_file_is_not_taken_up() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("c.bin");
@@ -245,5 +265,52 @@ mod tests {
             assert!(!keeper.take_up(&mut fresh));
             assert_eq!(fresh, Run::default());
         }
+    }
+
+    #[test]
+    fn none_of_a_thousand_flipped_bits_is_accepted() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("c.bin");
+        let checkpoint = Checkpoint::new(&path, Duration::ZERO);
+        let mut keeper = Keeper::new(&checkpoint, "plan");
+        let long = Run {
+            speeds: vec![[0.1, 0.2]; 50],
+            ..run()
+        };
+        keeper.keep(&long).unwrap();
+        let bytes = std::fs::read(&path).unwrap();
+        let bits = 8 * bytes.len();
+        assert!(bits > 1000);
+        // every bit of the head, and a thousand more over all of the file
+        for bit in (0..512).chain((0..1000).map(|k| k * bits / 1000)) {
+            let mut flipped = bytes.clone();
+            flipped[bit / 8] ^= 1 << (bit % 8);
+            std::fs::write(&path, flipped).unwrap();
+            let mut fresh = Run::default();
+            assert_eq!(
+                keeper.take_up_into(&mut fresh),
+                TakenUp::Damaged,
+                "bit {bit}"
+            );
+            assert_eq!(fresh, Run::default());
+        }
+    }
+
+    #[test]
+    fn a_file_of_another_version_is_told_by_its_version_and_not_read() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("c.bin");
+        let checkpoint = Checkpoint::new(&path, Duration::ZERO);
+        let mut keeper = Keeper::new(&checkpoint, "plan");
+        let key = keeper.key;
+        let tape = sealed(9, |tape| key.save(tape));
+        std::fs::write(&path, tape.as_bytes()).unwrap();
+        let mut fresh = Run::default();
+        let said = TakenUp::Version(9);
+        assert_eq!(keeper.take_up_into(&mut fresh), said);
+        assert_eq!(fresh, Run::default());
+        // files from before there was a sum begin with a digest
+        std::fs::write(&path, [7; 400]).unwrap();
+        assert_eq!(keeper.take_up_into(&mut fresh), TakenUp::Damaged);
     }
 }

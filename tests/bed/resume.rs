@@ -146,15 +146,22 @@ fn what_was_kept_of_another_scene_is_not_taken_up_and_damage_is_reported() {
     assert!(!run(SCENE, damaged.path(), ("packing", 9)));
     let kept = damaged.path().join("bed/packing/restart.bin");
     let bytes = std::fs::read(&kept).unwrap();
-    std::fs::write(&kept, &bytes[..bytes.len() / 2]).unwrap();
     let scene = Scene::parse(SCENE, Path::new("resume.toml")).unwrap();
     let options = Options {
         checkpoint: Some(Duration::from_secs(60)),
         ..quiet(damaged.path())
     };
-    let refused = run_scene(&scene, None, &options).err().unwrap().to_string();
-    assert!(
-        refused.contains("restart.bin") && refused.contains("remove it"),
-        "{refused}"
-    );
+    let refused = |damaged: &[u8]| {
+        std::fs::write(&kept, damaged).unwrap();
+        let text = run_scene(&scene, None, &options).err().unwrap().to_string();
+        let named = text.contains("restart.bin") && text.contains("damaged; remove it");
+        assert!(named, "{text}");
+    };
+    refused(&bytes[..bytes.len() / 2]);
+    for k in 0..20 {
+        let bit = k * 8 * bytes.len() / 20 + 3;
+        let mut flipped = bytes.clone();
+        flipped[bit / 8] ^= 1 << (bit % 8);
+        refused(&flipped);
+    }
 }

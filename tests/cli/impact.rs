@@ -46,7 +46,9 @@ fn an_impact_leaves_curve_summary_and_maps() {
 fn a_run_that_cannot_finish_says_why_and_keeps_what_it_has() {
     let folder = tempfile::tempdir().unwrap();
     // twenty-seven times the wave speed: nothing elastic-plastic survives that
-    let output = impact(folder.path(), &case("1 MPa", "300 m/s"), &[]);
+    let meant = "unusual = [\"impact.velocities\"]\n";
+    let text = format!("{meant}{}", case("1 MPa", "300 m/s"));
+    let output = impact(folder.path(), &text, &[]);
     assert_eq!(output.status.code(), Some(2));
     let message = message(&output);
     assert!(

@@ -5,6 +5,7 @@ mod bed_shipped;
 mod cost;
 mod impact;
 mod killed;
+mod owner;
 #[path = "../support/program.rs"]
 mod program;
 mod report_page;

@@ -6,6 +6,7 @@ mod codes;
 mod granular;
 mod lammps;
 mod liggghts;
+mod names;
 mod native;
 #[path = "../../benches/packing/mod.rs"]
 mod packing;

@@ -71,6 +71,7 @@ pub fn summary(velocity: f64, figures: [f64; 5]) -> Summary {
         steps: 0,
         wall_s: 0.0,
         tangential: None,
+        particle: None,
         status: Status::Ok,
     }
 }

@@ -35,6 +35,7 @@ fn example() -> LawFile {
         schema: SCHEMA,
         name: "example".into(),
         form: Form::ClosedForm,
+        warnings: Vec::new(),
         material: MaterialTable {
             density_kg_m3: 8000.0,
             young_modulus_pa: 100e9,
@@ -47,6 +48,11 @@ fn example() -> LawFile {
             velocity_min_m_s: 10.0,
             velocity_max_m_s: 50.0,
         },
+        thresholds: Some(ThresholdTable {
+            tolerance: 0.02,
+            error: 0.03,
+            left_out: 0.1,
+        }),
         provenance: ProvenanceTable {
             program: "impactlaw 0.1.0".into(),
             case: "example".into(),
@@ -114,7 +120,7 @@ proptest! {
 
     #[test]
     fn every_admissible_constant_survives_bit_by_bit(
-        w_1 in 1e-3f64..1e3, b in 1e-2f64..1e2, q in 0.0f64..1.333, c in 1e-3f64..1e4, k in 1e-3f64..4.0,
+        w_1 in 1e-3f64..1e3, b in 1e-2f64..1e2, q in 0.0f64..1.333, c in 1e-2f64..1e4, k in 1e-3f64..1.5,
         n_1 in -0.5f64..3.0, n_2 in 0.0f64..40.0, x in 0.0f64..0.2
     ) {
         let mut file = example();
@@ -243,6 +249,16 @@ fn inadmissible_constants_are_refused() {
         "softening = 1.1",
         "softening = 1.4",
         &["`closed_form.softening`", "4/3"],
+    );
+    refuse(
+        "residual_scale = 9.0",
+        "residual_scale = 1e30",
+        &["`closed_form.unloading.residual_scale`", "[1e-6, 1e6]"],
+    );
+    refuse(
+        "residual_power = 0.65",
+        "residual_power = 40.0",
+        &["residual ratio", "nothing would be left to unload"],
     );
     refuse(
         "inertia = 9.0",

@@ -8,6 +8,7 @@ use impactlaw::command::{Command, Context};
 use impactlaw::compare::{Comparison, Row, SIMULATION};
 use impactlaw::contact::NormalLaw;
 use impactlaw::contact::rebound::{rebound, trajectory};
+use impactlaw::curve::Particle;
 use impactlaw::curve::{Curve, Impact, Status};
 use impactlaw::theory::Theory;
 use impactlaw::theory::thornton::Thornton;
@@ -149,7 +150,8 @@ fn the_command_goes_from_impact_folders_and_a_law_file_to_both_files() {
     assert_eq!(Case::read(&case).unwrap().material, MATERIAL);
     let folder = tempfile::tempdir().unwrap();
     let impacts = folder.path().to_owned();
-    for impact in references() {
+    for mut impact in references() {
+        impact.summary.particle = Some(Particle::of(&MATERIAL, RADIUS));
         let name = format!("impact_V{}", impact.summary.velocity_m_s);
         impact
             .write(&impacts.join(name), "finite elements")

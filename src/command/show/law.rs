@@ -43,10 +43,15 @@ fn summary(file: &LawFile) -> String {
         Form::ClosedForm => "closed form",
         Form::Spline => "spline",
     };
-    format!(
-        "Form in use: {form}. Largest error of F*, δ* and e over all speeds: {} %.",
-        significant(100.0 * file.worst_error(), 2)
-    )
+    let mut text = format!(
+        "Form in use: {form}. Largest error of F*, δ* and e over all speeds: {} % (at most {} % asked for).",
+        significant(100.0 * file.worst_error(), 2),
+        significant(100.0 * file.threshold(), 2)
+    );
+    for warning in &file.warnings {
+        text.push_str(&format!(" Warning: {warning}."));
+    }
+    text
 }
 
 fn constants(file: &LawFile) -> Table {

@@ -79,7 +79,7 @@ fn notice(law: &Portable) -> String {
         "/* Contact law \"{}\", exported by {} (law file sha256 {}).\n   \
          Described in {}.h: equations, units, conventions, valid range, reference impacts.\n   \
          Licence of this file: MIT or Apache-2.0. What is built from it with headers under the GPL is under the GPL. */",
-        law.name.replace("*/", "* /"),
+        law.name,
         crate::PROGRAM,
         law.hash,
         law.identifier

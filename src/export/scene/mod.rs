@@ -13,6 +13,7 @@ use crate::export::c::kernel::number;
 use crate::export::source::artifact::Artifact;
 use crate::export::source::portable::Portable;
 use crate::law::LawFile;
+use crate::law::file::plain;
 use crate::{Error, Result};
 use sha2::{Digest, Sha256};
 use std::fmt::Write;
@@ -216,7 +217,7 @@ impl Bed<'_> {
         ];
         let mut text = format!(
             "Packing of the scene \"{}\": id type diameter density x y z, SI\n\n{} atoms\n1 atom types\n\n",
-            self.scene.name,
+            plain(&self.scene.name),
             grains.len()
         );
         for (axis, edge) in edges {
@@ -252,7 +253,7 @@ impl Bed<'_> {
             .try_normalize()
             .unwrap_or(parry3d::math::Vector::NEG_Z);
         let common = [
-            ("@SCENE@", self.scene.name.clone()),
+            ("@SCENE@", plain(&self.scene.name)),
             ("@HASH@", self.scene.hash.clone()),
             ("@PROGRAM@", crate::PROGRAM.to_owned()),
             ("@DT@", number(self.time_step())),
@@ -292,7 +293,7 @@ impl Bed<'_> {
                 let look = LOOK * self.face() / (velocity.abs() * self.time_step());
                 let mut words = vec![
                     ("@K@", k.to_string()),
-                    ("@STAGE@", stage.name().to_owned()),
+                    ("@STAGE@", plain(stage.name())),
                     ("@VELOCITY@", format!("{velocity:e}")),
                     ("@CHECK@", format!("{:.0}", look.clamp(1.0, MOST_STEPS))),
                 ];

@@ -3,6 +3,7 @@
 use super::portable::Portable;
 use super::reference::Impact;
 use crate::law::Form;
+use crate::law::file::plain;
 use std::fmt::Write;
 
 /// Convention of moduli and radii, history and reset; what a reader of any dialect has to know.
@@ -69,9 +70,9 @@ pub fn provenance(law: &Portable) -> String {
     format!(
         "Provenance: {}; fitted by {} to case {} (sha256 {}); law file sha256 {}, form {}.",
         crate::PROGRAM,
-        from.program,
-        from.case,
-        from.case_sha256,
+        plain(&from.program),
+        plain(&from.case),
+        plain(&from.case_sha256),
         law.hash,
         law.form.name(),
     )

@@ -4,6 +4,7 @@ use super::reference::{self, Reference};
 use crate::bed::stages::time_step::rayleigh_time;
 use crate::contact::{LawVisitor, NormalLaw};
 use crate::document::Document;
+use crate::law::file::plain;
 use crate::law::{FittedLaw, Form, LawFile};
 use crate::material::Material;
 use crate::{Error, Result};
@@ -63,7 +64,7 @@ impl Portable {
         let reference = reference::of(&core, &file);
         Ok(Portable {
             identifier: identifier(&file.name),
-            name: file.name.clone(),
+            name: plain(&file.name),
             form,
             core,
             full,

@@ -1,7 +1,7 @@
 //! Record of a run: what is kept at every output, and how it becomes a curve and its figures in SI units.
 
 use crate::curve::{
-    Curve, Impact, MapPoint, Part, ParticleMap, Sample, Status, Summary, Tangential,
+    Curve, Impact, MapPoint, Part, Particle, ParticleMap, Sample, Status, Summary, Tangential,
 };
 use crate::material::{Material, ReferenceUnits};
 use crate::tape::keep_fields;
@@ -263,6 +263,7 @@ impl Record {
             steps: self.steps,
             wall_s,
             tangential: self.sliding.map(|s| s.figures(radius, radius / time)),
+            particle: Some(Particle::of(material, radius)),
             status: self.status.clone(),
         };
         Impact {

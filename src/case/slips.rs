@@ -1,0 +1,195 @@
+//! Slips of units: values that no particle has, so that "250 m" for "250 um" stops before the first step.
+//!
+//! The bounds lie beyond every solid that is known to be shot at walls, not beyond what the solver can do. What is meant all
+//! the same is named in the case file: `unusual = ["particle.radius"]`.
+
+use super::Case;
+use crate::document::Document;
+use crate::material::constant::{Constant, Dimension};
+use crate::material::flow::YIELD_STRENGTH;
+use crate::material::{Flow, Material};
+use crate::unit::{engineering, significant};
+use crate::{Error, Result};
+use std::ops::RangeInclusive;
+
+const RADIUS: &str = "particle.radius";
+const DENSITY: &str = "material.density";
+const MODULUS: &str = "material.young_modulus";
+const POISSON: &str = "material.poisson_ratio";
+const VELOCITIES: &str = "impact.velocities";
+
+/// Radius, m: from some dozens of atoms to a boulder.
+const RADII: RangeInclusive<f64> = 1e-8..=10.0;
+/// Density, kg/m3: from light foams, and above all numbers meant in g/cm3, to osmium.
+const DENSITIES: RangeInclusive<f64> = 25.0..=25e3;
+/// Young's modulus, Pa: from the softest gels to twice that of diamond.
+const MODULI: RangeInclusive<f64> = 1e3..=2e12;
+/// Poisson's ratio up to which the solver is compared with others; a misprint beyond.
+const LARGEST_POISSON: f64 = 0.49;
+/// Largest Y/E: the ideal strength of solids is about a tenth of E.
+const LARGEST_STRENGTH: f64 = 0.5;
+/// Smallest Y/E: pure annealed metals have some 1e-5.
+const LEAST_STRENGTH: f64 = 1e-7;
+/// Smallest speed over $\sqrt{E/\rho}$: a flattening of 1e-8 R, some digits above the rounding of positions.
+const LEAST_MACH: f64 = 1e-10;
+/// Largest $\rho V^2/Y$: a tenth of it flattens the body to a fiftieth of its height.
+const LARGEST_SEVERITY: f64 = 150.0;
+
+/// Keys that `unusual` can name.
+fn keys() -> Vec<String> {
+    let flow = Flow::all_constants();
+    let flow = flow.iter().map(key_of);
+    [RADIUS, DENSITY, MODULUS, POISSON, VELOCITIES]
+        .map(str::to_owned)
+        .into_iter()
+        .chain(flow)
+        .collect()
+}
+
+/// Key of a constant of the flow stress.
+fn key_of(constant: &Constant) -> String {
+    format!("material.{}", constant.key)
+}
+
+/// What is wrong with a value, when it is.
+type Slip = Option<String>;
+
+/// That no value of the case file is a slip, but for those named in `unusual`.
+///
+/// # Errors
+/// [`Error::Value`] naming the first one, and how to keep it.
+pub(super) fn check(
+    case: &Case,
+    velocities: &[f64],
+    document: &Document,
+    unusual: &[String],
+) -> Result<()> {
+    let keys = keys();
+    if let Some(i) = unusual.iter().position(|key| !keys.contains(key)) {
+        let allowed = format!("must be one of {}", keys.join(", "));
+        return Err(document.reject(&format!("unusual[{i}]"), allowed));
+    }
+    let Material {
+        density,
+        young_modulus,
+        poisson_ratio,
+        flow,
+    } = case.material;
+    let mut found = vec![
+        (RADIUS, RADIUS.to_owned(), outside(case.radius, &RADII, "m")),
+        (
+            DENSITY,
+            DENSITY.to_owned(),
+            outside(density, &DENSITIES, "kg/m³"),
+        ),
+        (
+            MODULUS,
+            MODULUS.to_owned(),
+            outside(young_modulus, &MODULI, "Pa"),
+        ),
+        (POISSON, POISSON.to_owned(), poisson(poisson_ratio)),
+    ];
+    let constants = flow.map_or_else(Vec::new, |flow| flow.constants());
+    let constants: Vec<(String, Slip)> = constants
+        .iter()
+        .map(|(constant, value)| (key_of(constant), flow_slip(constant, *value, young_modulus)))
+        .collect();
+    for (key, slip) in &constants {
+        found.push((key, key.clone(), slip.clone()));
+    }
+    for (i, velocity) in velocities.iter().enumerate() {
+        let slip = velocity_slip(&case.material, *velocity);
+        found.push((VELOCITIES, format!("{VELOCITIES}[{i}]"), slip));
+    }
+    for (key, place, slip) in found {
+        let meant = unusual.iter().any(|named| named == key);
+        if let Some(why) = slip.filter(|_| !meant) {
+            let allowed = format!(
+                "check the unit of {key}: {why}; if it is meant, begin the file with `unusual = [\"{key}\"]`"
+            );
+            return Err(document.reject(&place, allowed));
+        }
+    }
+    Ok(())
+}
+
+/// The same for a speed of the command line; one that the file's own speeds were allowed to be is allowed here.
+///
+/// # Errors
+/// [`Error::Argument`].
+pub(super) fn check_argument(case: &Case, velocity: f64, text: &str) -> Result<()> {
+    let slip = |v: f64| velocity_slip(&case.material, v);
+    match slip(velocity) {
+        Some(why) if case.velocities.iter().all(|v| slip(*v).is_none()) => Err(Error::Argument {
+            argument: "--velocity".to_owned(),
+            found: format!("\"{text}\""),
+            allowed: format!(
+                "check the unit: {why}; if it is meant, give it in the case file, beside `unusual = [\"{VELOCITIES}\"]`"
+            ),
+        }),
+        _ => Ok(()),
+    }
+}
+
+fn outside(value: f64, range: &RangeInclusive<f64>, unit: &str) -> Slip {
+    let text = |x: f64| engineering(x, unit, 4);
+    (!range.contains(&value)).then(|| {
+        format!(
+            "{} is not between {} and {}",
+            text(value),
+            text(*range.start()),
+            text(*range.end())
+        )
+    })
+}
+
+fn poisson(ratio: f64) -> Slip {
+    (ratio > LARGEST_POISSON).then(|| {
+        format!("{ratio} is above {LARGEST_POISSON}, where a body is all but incompressible")
+    })
+}
+
+/// A yield strength that no solid has beside this modulus, or another stress above the modulus.
+fn flow_slip(constant: &Constant, value: f64, modulus: f64) -> Slip {
+    let share = value / modulus;
+    let said = |what: &str| Some(format!("E/Y = {} is {what}", significant(1.0 / share, 3)));
+    if *constant == YIELD_STRENGTH {
+        return match share {
+            share if share > LARGEST_STRENGTH => said("less than any solid's"),
+            share if share < LEAST_STRENGTH => said("more than any solid's"),
+            _ => None,
+        };
+    }
+    let above = constant.dimension == Dimension::Stress && share > 1.0;
+    above.then(|| "it is above young_modulus".to_owned())
+}
+
+/// A speed above that of sound, one too slow to be told from rest, or one that no body survives.
+fn velocity_slip(material: &Material, velocity: f64) -> Slip {
+    let sound = (material.young_modulus / material.density).sqrt();
+    let severity = material.flow.map_or(0.0, |flow| {
+        material.density * velocity * velocity / flow.yield_strength()
+    });
+    let [elastic, _] = material.flattening_limits(velocity);
+    let named = engineering(velocity, "m/s", 4);
+    if velocity > sound {
+        let sound = engineering(sound, "m/s", 3);
+        Some(format!(
+            "{named} is above the speed of sound sqrt(E/rho), {sound}"
+        ))
+    } else if velocity < LEAST_MACH * sound {
+        Some(format!(
+            "{named} is rest: the flattening would be below 1e-8 R"
+        ))
+    } else if severity > LARGEST_SEVERITY {
+        let severity = significant(severity, 3);
+        Some(format!(
+            "rho V^2/Y = {severity}: nothing is left of the body"
+        ))
+    } else if material.flow.is_none() && elastic > 1.0 {
+        let ratio = significant(elastic, 3);
+        Some(format!("the expected delta* is {ratio} radii"))
+    } else {
+        None
+    }
+}
