@@ -9,6 +9,7 @@ mod files;
 mod many;
 #[path = "../support/maw_barber_fawcett.rs"]
 mod maw_barber_fawcett;
+mod meshes;
 mod mixture;
 mod oblique;
 mod oblique_elastic;
@@ -23,4 +24,5 @@ mod restart;
 mod resume;
 mod scene_run;
 mod scenes;
+mod seams;
 mod two_bodies;

@@ -6,7 +6,7 @@ use impactlaw::bed::run::{BedReport, LawRun, run_scene};
 use impactlaw::bed::scene::Scene;
 use impactlaw::dem::bodies::Solid;
 use impactlaw::dem::bodies::machine::Machine;
-use impactlaw::dem::bodies::mesh::read_stl;
+use impactlaw::dem::bodies::mesh::{Format, read};
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 
@@ -313,7 +313,7 @@ fn the_drum_of_the_cases_is_a_cylinder_with_six_lifters() {
     let Solid::Mesh {
         vertices,
         triangles,
-    } = read_stl(&bytes, 1e-3).unwrap()
+    } = read(&bytes, Format::Stl, 1e-3, 1e-6).unwrap().solid
     else {
         panic!()
     };

@@ -5,11 +5,11 @@ use super::drive::{DrivenTable, FreeTable};
 use super::material::GrainMaterial;
 use super::written::vector;
 use crate::Result;
-use crate::dem::bodies::mesh;
+use crate::dem::bodies::mesh::{self, Format};
 use crate::dem::bodies::{Body, Mobility, Solid};
 use crate::document::Document;
 use crate::error::must_be_one_of;
-use crate::unit::{Angle, Length, Quantity};
+use crate::unit::{Angle, Length, Quantity, engineering};
 use parry3d::math::{Rotation, Vector};
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -27,6 +27,7 @@ pub(super) struct BodyTable {
     cone: Option<ConeTable>,
     mesh: Option<String>,
     scale: Option<Quantity<Length>>,
+    tolerance: Option<Quantity<Length>>,
     at: Option<[Quantity<Length>; 3]>,
     turn: Option<TurnTable>,
     driven: Option<DrivenTable>,
@@ -81,6 +82,31 @@ struct TurnTable {
     angle: Quantity<Angle>,
 }
 
+/// Distance between two corners of a mesh below which they are one, over the smallest radius, where the scene does not
+/// say: files round their numbers, and a grain cannot feel so small a step.
+const TOLERANCE: f64 = 1e-3;
+/// Extent of a mesh over the smallest radius below which its `scale` is taken for a slip.
+const SMALLEST_EXTENT: f64 = 0.1;
+
+/// A shape, and how it stands.
+struct Shape {
+    solid: Solid,
+    /// Turn that brings its own axis where the table wants it.
+    turn: Rotation,
+    /// Why its surface is not closed, if it is not.
+    opening: Option<String>,
+}
+
+impl Shape {
+    fn turned(solid: Solid, turn: Rotation) -> Self {
+        Self {
+            solid,
+            turn,
+            opening: None,
+        }
+    }
+}
+
 /// Files a scene names, by name, with their bytes: what its hash covers beside its own text.
 pub(super) type Files = BTreeMap<String, Vec<u8>>;
 
@@ -89,6 +115,7 @@ pub(super) fn check_bodies(
     tables: Vec<BodyTable>,
     reserved: &[&str],
     materials: &[GrainMaterial],
+    smallest_radius: f64,
     files: &mut Files,
 ) -> Result<Vec<Body>> {
     let mut bodies: Vec<Body> = Vec::new();
@@ -106,7 +133,7 @@ pub(super) fn check_bodies(
         let material = table.material(&at, materials)?;
         bodies.push(Body {
             material: material.map(|index| index as u8),
-            ..table.check(&at, files)?
+            ..table.check(&at, smallest_radius, files)?
         });
     }
     Ok(bodies)
@@ -125,8 +152,8 @@ impl BodyTable {
         })
     }
 
-    fn check(self, at: &At, files: &mut Files) -> Result<Body> {
-        let (solid, own_turn) = self.solid(at, files)?;
+    fn check(self, at: &At, smallest_radius: f64, files: &mut Files) -> Result<Body> {
+        let shape = self.shape(at, smallest_radius, files)?;
         let turn = match &self.turn {
             Some(turn) => {
                 Rotation::from_axis_angle(at.direction("turn.axis", turn.axis)?, turn.angle.si())
@@ -138,7 +165,15 @@ impl BodyTable {
             (Some(driven), None) => {
                 Mobility::Driven(driven.check(at.document, &at.name("driven"))?)
             }
-            (None, Some(free)) => Mobility::Free(free.check(at, &solid)?),
+            (None, Some(free)) => {
+                if let Some(opening) = &shape.opening {
+                    let allowed = format!(
+                        "must be a closed surface for a free body, whose mass is spread over its inside: {opening}; close the mesh, or make the body driven or fixed"
+                    );
+                    return Err(at.document.reject(at.key, &allowed));
+                }
+                Mobility::Free(free.check(at, &shape.solid)?)
+            }
             (Some(_), Some(_)) => {
                 return Err(at.reject(
                     "free",
@@ -148,16 +183,15 @@ impl BodyTable {
         };
         Ok(Body {
             name: self.name,
-            solid,
+            solid: shape.solid,
             centre: self.at.map_or(Vector::ZERO, vector),
-            rotation: turn * own_turn,
+            rotation: turn * shape.turn,
             mobility,
             material: None,
         })
     }
 
-    /// Shape, and the turn that brings its own axis where the table wants it.
-    fn solid(&self, at: &At, files: &mut Files) -> Result<(Solid, Rotation)> {
+    fn shape(&self, at: &At, smallest_radius: f64, files: &mut Files) -> Result<Shape> {
         let shapes = [
             self.block.is_some(),
             self.ball.is_some(),
@@ -173,19 +207,23 @@ impl BodyTable {
         }
         if self.mesh.is_some() != self.scale.is_some() {
             let allowed =
-                "must stand beside `mesh`: the length that 1 in the STL file means, e.g. \"1 mm\"";
+                "must stand beside `mesh`: the length that 1 in the mesh file means, e.g. \"1 mm\"";
             return Err(at.reject("scale", allowed));
+        }
+        if self.mesh.is_none() && self.tolerance.is_some() {
+            let allowed = "must stand beside `mesh`: corners closer than this are one";
+            return Err(at.reject("tolerance", allowed));
         }
         if let Some(block) = &self.block {
             let size = vector(block.size);
             if !size.cmpgt(Vector::ZERO).all() {
                 return Err(at.reject("block.size", "must be positive along every axis"));
             }
-            return Ok((Solid::Cuboid(0.5 * size), Rotation::IDENTITY));
+            return Ok(Shape::turned(Solid::Cuboid(0.5 * size), Rotation::IDENTITY));
         }
         if let Some(ball) = &self.ball {
             let radius = at.positive("ball.radius", ball.radius)?;
-            return Ok((Solid::Ball(radius), Rotation::IDENTITY));
+            return Ok(Shape::turned(Solid::Ball(radius), Rotation::IDENTITY));
         }
         if let Some(cylinder) = &self.cylinder {
             let axis = at.direction("cylinder.axis", cylinder.axis.unwrap_or([0.0, 0.0, 1.0]))?;
@@ -193,38 +231,70 @@ impl BodyTable {
                 radius: at.positive("cylinder.radius", cylinder.radius)?,
                 half_height: 0.5 * at.positive("cylinder.length", cylinder.length)?,
             };
-            return Ok((solid, Rotation::from_rotation_arc(Vector::Y, axis)));
+            let turn = Rotation::from_rotation_arc(Vector::Y, axis);
+            return Ok(Shape::turned(solid, turn));
         }
         if let Some(plane) = &self.plane {
             let normal = at.direction("plane.normal", plane.normal)?;
-            return Ok((
-                Solid::HalfSpace,
-                Rotation::from_rotation_arc(Vector::Z, normal),
-            ));
+            let turn = Rotation::from_rotation_arc(Vector::Z, normal);
+            return Ok(Shape::turned(Solid::HalfSpace, turn));
         }
         if let Some(cone) = &self.cone {
-            return Ok((cone.check(at)?, Rotation::IDENTITY));
+            return Ok(Shape {
+                solid: cone.check(at)?,
+                turn: Rotation::IDENTITY,
+                opening: Some("a cone is open at both ends".to_owned()),
+            });
         }
-        Ok((self.read_mesh(at, files)?, Rotation::IDENTITY))
+        self.read_mesh(at, smallest_radius, files)
     }
 
-    fn read_mesh(&self, at: &At, files: &mut Files) -> Result<Solid> {
+    fn read_mesh(&self, at: &At, smallest_radius: f64, files: &mut Files) -> Result<Shape> {
         let (Some(name), Some(scale)) = (&self.mesh, self.scale) else {
-            return Err(at.reject("mesh", "must name an STL file"));
+            return Err(at.reject("mesh", "must name an STL or OBJ file"));
         };
         let unit = at.positive("scale", scale)?;
+        let tolerance = self.tolerance(at, smallest_radius)?;
         let path = at.document.resolve(name);
         let bytes = std::fs::read(&path).map_err(|error| {
             let allowed = format!(
-                "must name an STL file that can be read: {}: {error}",
+                "must name an STL or OBJ file that can be read: {}: {error}",
                 path.display()
             );
             at.reject("mesh", &allowed)
         })?;
-        let solid = mesh::read_stl(&bytes, unit)
+        let import = mesh::read(&bytes, Format::of(name), unit, tolerance)
             .map_err(|wrong| at.reject("mesh", &format!("{} {wrong}", path.display())))?;
+        let extent = import.solid.extent().max_element();
+        if extent < SMALLEST_EXTENT * smallest_radius {
+            let allowed = format!(
+                "must not be so much smaller than the grains: {} across against a radius of {}; look at `scale`",
+                engineering(extent, "m", 2),
+                engineering(smallest_radius, "m", 2)
+            );
+            return Err(at.reject("mesh", &allowed));
+        }
+        for warning in &import.warnings {
+            tracing::warn!("{} {warning}", path.display());
+        }
         files.insert(name.clone(), bytes);
-        Ok(solid)
+        Ok(Shape {
+            solid: import.solid,
+            turn: Rotation::IDENTITY,
+            opening: import.opening,
+        })
+    }
+
+    fn tolerance(&self, at: &At, smallest_radius: f64) -> Result<f64> {
+        let Some(tolerance) = self.tolerance else {
+            return Ok(TOLERANCE * smallest_radius);
+        };
+        at.document.check(
+            &at.name("tolerance"),
+            tolerance.si(),
+            |tolerance| (0.0..smallest_radius).contains(&tolerance),
+            "must be 0 or more, and less than the smallest grain radius",
+        )
     }
 }
 

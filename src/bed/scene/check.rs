@@ -1,13 +1,8 @@
-//! Checks of a scene as a whole: its room, its meshes, and what its stages tell bodies to do.
+//! Checks of a scene as a whole: its room, and what its stages tell bodies to do.
 
 use crate::Result;
 use crate::bed::scene::{Change, Scene, Stage};
-use crate::dem::bodies::mesh::shortest_edge;
 use crate::dem::bodies::{Mobility, Solid};
-use crate::unit::engineering;
-
-/// Shortest edge of a mesh over the smallest radius.
-const SHORTEST_EDGE: f64 = 0.02;
 
 /// Shortest period over the largest radius: twice the distance up to which neighbours are listed.
 const SHORTEST_PERIOD: f64 = 6.0;
@@ -55,32 +50,6 @@ impl Scene {
             if periodic && *edge < SHORTEST_PERIOD * largest {
                 let allowed = "must be at least three grain diameters where it is a period, or two grains meet through both sides";
                 return Err(document.reject(key, allowed));
-            }
-        }
-        Ok(())
-    }
-
-    /// That no mesh has edges so short, compared with the grains, that its touched points cannot be told apart.
-    pub(super) fn check_meshes(&self) -> Result<()> {
-        let [smallest, _] = self.radii();
-        for (index, body) in self.bodies.iter().enumerate() {
-            let Solid::Mesh {
-                vertices,
-                triangles,
-            } = &body.solid
-            else {
-                continue;
-            };
-            let edge = shortest_edge(vertices, triangles);
-            if edge < SHORTEST_EDGE * smallest {
-                let allowed = format!(
-                    "must not be so much smaller than the grains: an edge of {} against a radius of {}; merge short edges, or look at `scale`",
-                    engineering(edge, "m", 2),
-                    engineering(smallest, "m", 2)
-                );
-                return Err(self
-                    .document
-                    .reject(&format!("body[{index}].mesh"), allowed));
             }
         }
         Ok(())

@@ -3,7 +3,6 @@
 use super::at::At;
 use super::written::vector;
 use crate::Result;
-use crate::dem::bodies::mesh;
 use crate::dem::bodies::motion::{Motion, Oscillation, Servo};
 use crate::dem::bodies::{Freedom, Joint, JointKind, Motor, Solid};
 use crate::document::Document;
@@ -127,15 +126,6 @@ impl DrivenTable {
 
 impl FreeTable {
     pub(super) fn check(&self, at: &At, solid: &Solid) -> Result<Freedom> {
-        if let Solid::Mesh { triangles, .. } = solid {
-            let open = mesh::open_edges(triangles);
-            if open > 0 {
-                let allowed = format!(
-                    "must be a closed surface for a free body, whose mass is spread over its inside: {open} edges have not exactly two triangles; close the mesh, or make the body driven or fixed"
-                );
-                return Err(at.document.reject(at.key, allowed));
-            }
-        }
         if matches!(solid, Solid::HalfSpace) {
             return Err(at.reject("free", "must not be a plane: it has no mass"));
         }

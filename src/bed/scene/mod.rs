@@ -144,7 +144,11 @@ impl Scene {
         let groups = check_groups(document, file.grains, &materials)?;
         let contact = file.contact.check(document)?;
         let reserved: Vec<&str> = WALLS.iter().copied().chain([PISTON]).collect();
-        let bodies = check_bodies(document, file.body, &reserved, &materials, &mut files)?;
+        let smallest = |radius: f64, group: &Group| radius.min(group.sizes.limits()[0]);
+        let smallest = groups.iter().fold(f64::INFINITY, smallest);
+        let bodies = check_bodies(
+            document, file.body, &reserved, &materials, smallest, &mut files,
+        )?;
         let cast = Cast {
             contact: &contact,
             bodies: names(&bodies, file.container.is_some(), &file.periodic),
@@ -176,7 +180,6 @@ impl Scene {
             output: file.output.check(document)?,
         };
         scene.check_room()?;
-        scene.check_meshes()?;
         scene.check_moves()?;
         Ok(scene)
     }

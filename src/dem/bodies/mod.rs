@@ -239,6 +239,16 @@ impl Solid {
         Ok(Some(mass * unit.powi(3)))
     }
 
+    /// Edges (m) of the block about the corners of a mesh; infinite for what has no corners.
+    #[must_use]
+    pub fn extent(&self) -> Vector {
+        let Solid::Mesh { vertices, .. } = self else {
+            return Vector::INFINITY;
+        };
+        let low = vertices.iter().copied().fold(Vector::MAX, Vector::min);
+        vertices.iter().copied().fold(Vector::MIN, Vector::max) - low
+    }
+
     /// Radius (m) about the origin that holds the shape; infinite for a plane.
     #[must_use]
     pub fn reach(&self) -> f64 {

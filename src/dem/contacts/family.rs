@@ -1,22 +1,23 @@
 //! Patches: the contacts of grains with one kind of surface, evaluated by chunks; each keeps its own history.
 
+use super::member::{ALONE, Member, Place, Turnover};
 pub use super::patch::{Held, Patch};
 use crate::contact::pair::Pressed;
-use crate::dem::bodies::machine::Machine;
-use crate::dem::bodies::touching::{Touch, closest, minima};
+use crate::dem::bodies::machine::{Machine, Surface};
+use crate::dem::bodies::touching::{Scratch, Touch, Touches, closest, minima};
 use crate::dem::force::effects::ContactLaw;
 use crate::dem::force::meeting::{Losses, Meeting};
 use crate::dem::force::mixture::RIGID;
 use crate::dem::force::normal::{Histories, NormalModel, Squeeze};
 use crate::dem::grains::Grains;
 use parry3d::math::Vector;
-use parry3d::shape::Triangle;
 use rayon::prelude::*;
+use std::any::Any;
 
 /// Candidates evaluated by one task. Part of the result: sums of losses run over chunks of this size.
 pub(in crate::dem) const CHUNK: usize = 128;
 /// Least cosine between the normals of one contact at two steps: a contact that turned more is another one.
-const SAME_CONTACT: f64 = 0.9;
+pub(super) const SAME_CONTACT: f64 = 0.9;
 
 /// What a task sums up.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -29,6 +30,8 @@ pub(in crate::dem) struct Tally {
 pub(in crate::dem) struct Family<C: ContactLaw, const K: usize> {
     /// Grain and surface of each candidate, in order.
     pub(in crate::dem) candidates: Vec<[u32; 2]>,
+    /// Seat of each candidate among the members of a crowd.
+    pub(in crate::dem) seats: Vec<u32>,
     /// Row of each grain: `candidates[start[i]..start[i + 1]]`.
     pub(in crate::dem) start: Vec<u32>,
     /// `K` patches for each candidate.
@@ -43,6 +46,7 @@ impl<C: ContactLaw, const K: usize> Default for Family<C, K> {
     fn default() -> Self {
         Self {
             candidates: Vec::new(),
+            seats: Vec::new(),
             start: vec![0],
             patches: Vec::new(),
             histories: Vec::new(),
@@ -56,7 +60,7 @@ impl<C: ContactLaw, const K: usize> Default for Family<C, K> {
 struct Task<'a> {
     histories: &'a mut dyn Histories,
     tally: &'a mut Tally,
-    scratch: Vec<(Triangle, Vector)>,
+    scratch: Scratch,
     /// First patch of the present candidate within the chunk.
     first: usize,
 }
@@ -74,10 +78,29 @@ pub(in crate::dem) struct Situation<'a, C> {
 }
 
 impl<C: ContactLaw> Situation<'_, C> {
-    /// Evaluates one chunk of candidates.
+    /// Touched points of one grain on one surface.
+    pub(super) fn touches(
+        &self,
+        [grain, surface]: [usize; 2],
+        is_mesh: bool,
+        scratch: &mut Scratch,
+    ) -> Touches {
+        let sphere = &self.grains.spheres[grain];
+        let unit = self.machine.unit;
+        let body = &self.machine.surfaces[surface];
+        let centre = body.pose.inverse_transform_point(sphere.centre / unit);
+        let reach = sphere.radius / unit;
+        match body.shape.as_trimesh() {
+            Some(mesh) if is_mesh => minima(mesh, centre, reach, scratch),
+            _ => Touches::one(closest(&*body.shape, centre, reach)),
+        }
+    }
+
+    /// Evaluates one chunk of candidates, with their seats in the crowd.
     fn meet_all<const K: usize>(
         &self,
-        candidates: &[[u32; 2]],
+        crowd: &[Member],
+        (candidates, seats): (&[[u32; 2]], &[u32]),
         patches: &mut [Patch<C::Memory>],
         histories: &mut dyn Histories,
         tally: &mut Tally,
@@ -85,28 +108,31 @@ impl<C: ContactLaw> Situation<'_, C> {
         let mut task = Task {
             histories,
             tally,
-            scratch: Vec::new(),
+            scratch: Scratch::default(),
             first: 0,
         };
-        for (&pair, patches) in candidates.iter().zip(patches.chunks_exact_mut(K)) {
-            self.meet::<K>(pair, patches, &mut task);
+        let candidates = candidates.iter().zip(seats);
+        for ((&pair, &seat), patches) in candidates.zip(patches.chunks_exact_mut(K)) {
+            let found = match seat {
+                ALONE => None,
+                _ => Some(&crowd[seat as usize].touches),
+            };
+            self.meet::<K>(pair, found, patches, &mut task);
             task.first += K;
         }
     }
 
-    /// Evaluates the contacts of one grain with one surface.
+    /// Evaluates the contacts of one grain with one surface; its points are `found` already if others are near.
     fn meet<const K: usize>(
         &self,
         pair: [u32; 2],
+        found: Option<&Touches>,
         patches: &mut [Patch<C::Memory>],
         task: &mut Task,
     ) {
         let [grain, surface] = pair.map(|index| index as usize);
-        let sphere = &self.grains.spheres[grain];
         let unit = self.machine.unit;
         let body = &self.machine.surfaces[surface];
-        let centre = body.pose.inverse_transform_point(sphere.centre / unit);
-        let reach = sphere.radius / unit;
         let place = |task: &mut Task,
                      k: usize,
                      patch: &mut Patch<C::Memory>,
@@ -116,23 +142,32 @@ impl<C: ContactLaw> Situation<'_, C> {
                 task.tally.losses += self.push(pair, near, patch, task.histories, task.first + k);
             }
         };
-        match body.shape.as_trimesh() {
-            Some(mesh) if K > 1 => {
-                let touches = minima(mesh, centre, reach, &mut task.scratch);
-                task.tally.left_out += touches.left_out;
-                let chosen = assign::<C::Memory, K>(touches.as_slice(), patches, |n| {
-                    body.pose.transform_vector(n)
-                });
-                for (k, (patch, touch)) in patches.iter_mut().zip(chosen).enumerate() {
-                    place(task, k, patch, touch.map(|at| &touches.as_slice()[at]));
+        if K == 1 {
+            let touch = match found {
+                Some(touches) => touches.as_slice().first().copied(),
+                None => {
+                    let sphere = &self.grains.spheres[grain];
+                    let centre = body.pose.inverse_transform_point(sphere.centre / unit);
+                    closest(&*body.shape, centre, sphere.radius / unit)
                 }
+            };
+            place(task, 0, &mut patches[0], touch.as_ref());
+            return;
+        }
+        let own;
+        let touches = match found {
+            Some(touches) => touches,
+            None => {
+                own = self.touches([grain, surface], true, &mut task.scratch);
+                &own
             }
-            _ => place(
-                task,
-                0,
-                &mut patches[0],
-                closest(&*body.shape, centre, reach).as_ref(),
-            ),
+        };
+        task.tally.left_out += touches.left_out;
+        let chosen = assign::<C::Memory, K>(touches.as_slice(), patches, |n| {
+            body.pose.transform_vector(n)
+        });
+        for (k, (patch, touch)) in patches.iter_mut().zip(chosen).enumerate() {
+            place(task, k, patch, touch.map(|at| &touches.as_slice()[at]));
         }
     }
 
@@ -223,10 +258,11 @@ fn assign<M, const K: usize>(
 }
 
 impl<C: ContactLaw, const K: usize> Family<C, K> {
-    pub(in crate::dem) fn evaluate(&mut self, situation: &Situation<C>) {
+    pub(in crate::dem) fn evaluate(&mut self, situation: &Situation<C>, crowd: &[Member]) {
         if let [histories] = &mut self.histories[..] {
             situation.meet_all::<K>(
-                &self.candidates,
+                crowd,
+                (&self.candidates, &self.seats),
                 &mut self.patches,
                 &mut **histories,
                 &mut self.tallies[0],
@@ -235,12 +271,53 @@ impl<C: ContactLaw, const K: usize> Family<C, K> {
         }
         self.candidates
             .par_chunks(CHUNK)
+            .zip(self.seats.par_chunks(CHUNK))
             .zip(self.patches.par_chunks_mut(CHUNK * K))
             .zip(self.histories.par_iter_mut())
             .zip(self.tallies.par_iter_mut())
             .for_each(|(((candidates, patches), histories), tally)| {
-                situation.meet_all::<K>(candidates, patches, &mut **histories, tally);
+                situation.meet_all::<K>(crowd, candidates, patches, &mut **histories, tally);
             });
+    }
+
+    /// Patches of a candidate whose contacts end or begin when it is touched at `touches`.
+    pub(super) fn turnover(&self, candidate: usize, touches: &Touches, body: &Surface) -> Turnover {
+        let first = candidate * K;
+        let patches = &self.patches[first..first + K];
+        let to_world = |n| body.pose.transform_vector(n);
+        let chosen = match K {
+            // a solid is touched at one point, whichever way its normal turns
+            1 => [(!touches.as_slice().is_empty()).then_some(0); K],
+            _ => assign::<C::Memory, K>(touches.as_slice(), patches, to_world),
+        };
+        let mut turnover = Turnover::default();
+        for (k, (patch, touch)) in patches.iter().zip(chosen).enumerate() {
+            let place = |normal| Place {
+                patch: first + k,
+                normal,
+            };
+            match (patch.push.touches(), touch) {
+                (true, None) => turnover.ending.push(place(patch.normal)),
+                (false, Some(at)) => {
+                    let normal = to_world(touches.as_slice()[at].normal);
+                    turnover.beginning.push(place(normal));
+                }
+                _ => {}
+            }
+        }
+        turnover
+    }
+
+    /// Takes the contact out of a patch.
+    pub(super) fn take(&mut self, at: usize) -> (Patch<C::Memory>, Box<dyn Any>) {
+        let history = self.histories[at / (CHUNK * K)].take(at % (CHUNK * K));
+        (std::mem::take(&mut self.patches[at]), history)
+    }
+
+    /// Puts a contact taken elsewhere into a patch.
+    pub(super) fn put(&mut self, at: usize, contact: (Patch<C::Memory>, Box<dyn Any>)) {
+        self.patches[at] = contact.0;
+        self.histories[at / (CHUNK * K)].put(at % (CHUNK * K), &*contact.1);
     }
 
     /// Lists the candidates anew; patches go with them.

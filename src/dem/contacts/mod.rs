@@ -1,6 +1,8 @@
 //! Contacts, each with its own history: pairs of grains, grains on surfaces.
 
+mod crowd;
 pub(crate) mod family;
+mod member;
 pub mod pairs;
 pub(crate) mod patch;
 pub mod surfaces;

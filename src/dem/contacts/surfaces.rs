@@ -1,5 +1,6 @@
 //! Surfaces: contacts of grains with bodies, each keyed by grain and surface so that its history stays its own.
 
+use super::crowd::Crowd;
 use super::family::{Family, Situation};
 pub use super::family::{Held, Patch};
 use crate::dem::bodies::machine::{Load, Machine};
@@ -16,6 +17,8 @@ pub struct Surfaces<C: ContactLaw> {
     pub(in crate::dem) model: Box<dyn NormalModel>,
     pub(in crate::dem) solids: Family<C, 1>,
     pub(in crate::dem) meshes: Family<C, MAX_TOUCHES>,
+    /// Grains with several surfaces near them.
+    pub(in crate::dem) crowd: Crowd,
 }
 
 impl<C: ContactLaw> Surfaces<C> {
@@ -26,6 +29,7 @@ impl<C: ContactLaw> Surfaces<C> {
             model,
             solids: Family::default(),
             meshes: Family::default(),
+            crowd: Crowd::default(),
         }
     }
 
@@ -49,8 +53,24 @@ impl<C: ContactLaw> Surfaces<C> {
             machine,
             dt,
         };
-        self.solids.evaluate(&situation);
-        self.meshes.evaluate(&situation);
+        self.crowd.find(&situation);
+        for [from, to] in self.crowd.moves(&situation, &self.solids, &self.meshes) {
+            let contact = match from {
+                (true, patch) => self.meshes.take(patch),
+                (false, patch) => self.solids.take(patch),
+            };
+            match to {
+                (true, patch) => self.meshes.put(patch, contact),
+                (false, patch) => self.solids.put(patch, contact),
+            }
+        }
+        self.solids.evaluate(&situation, &self.crowd.members);
+        self.meshes.evaluate(&situation, &self.crowd.members);
+    }
+
+    /// Finds out which grains have several surfaces near them, after the candidates were listed.
+    pub(in crate::dem) fn seat(&mut self) {
+        self.crowd = Crowd::seat(&mut self.solids, &mut self.meshes);
     }
 
     /// Lists the grains nearer than `skin` (m) to a surface anew; histories go with their contacts.
@@ -83,6 +103,7 @@ impl<C: ContactLaw> Surfaces<C> {
         let materials = &machine.materials;
         self.solids.relist(solids, grains, &*self.model, materials);
         self.meshes.relist(meshes, grains, &*self.model, materials);
+        self.seat();
     }
 
     /// Energy dissipated so far, plastic flow apart.

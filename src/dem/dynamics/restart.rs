@@ -91,6 +91,7 @@ impl<C: ContactLaw> Keep for Surfaces<C> {
         let Self {
             solids,
             meshes,
+            crowd: _, // follows from the candidates
             model: _,
         } = self;
         solids.save(tape);
@@ -102,9 +103,12 @@ impl<C: ContactLaw> Keep for Surfaces<C> {
             solids,
             meshes,
             model,
+            crowd: _,
         } = self;
         solids.load(&**model, tape)?;
-        meshes.load(&**model, tape)
+        meshes.load(&**model, tape)?;
+        self.seat();
+        Some(())
     }
 }
 
@@ -112,6 +116,7 @@ impl<C: ContactLaw, const K: usize> Family<C, K> {
     fn save(&self, tape: &mut Tape) {
         let Self {
             candidates,
+            seats: _, // those of the crowd
             start,
             patches,
             histories,
@@ -129,6 +134,7 @@ impl<C: ContactLaw, const K: usize> Family<C, K> {
     fn load(&mut self, model: &dyn NormalModel, tape: &mut Tape) -> Option<()> {
         let Self {
             candidates,
+            seats: _,
             start,
             patches,
             histories,

@@ -92,6 +92,13 @@ enum Bodies {
     Unlike,
 }
 
+/// History of a contact on its way to another.
+struct Taken {
+    materials: [u8; 2],
+    share: f64,
+    sides: [Option<Box<dyn Any>>; 2],
+}
+
 impl Contact {
     fn bodies(&self) -> Bodies {
         match self.materials {
@@ -246,6 +253,40 @@ impl Histories for Chunk {
         for (kind, &side) in contact.materials.iter().zip(&contact.sides) {
             if let Some(sides) = self.flattened.get_mut(*kind as usize) {
                 sides.forget(side as usize);
+            }
+        }
+    }
+
+    fn take(&mut self, at: usize) -> Box<dyn Any> {
+        let contact = &self.contacts[at];
+        let (materials, share) = (contact.materials, contact.share);
+        let sides = std::array::from_fn(|body| {
+            // two bodies of one material share a side
+            let own = body == 0 || materials[0] != materials[1];
+            let kind = self.flattened.get_mut(materials[body] as usize)?;
+            own.then(|| kind.take(contact.sides[body] as usize))
+        });
+        self.forget(at);
+        Box::new(Taken {
+            materials,
+            share,
+            sides,
+        })
+    }
+
+    fn put(&mut self, at: usize, history: &dyn Any) {
+        let contact = &mut self.contacts[at];
+        let Some(taken) = history.downcast_ref::<Taken>() else {
+            return;
+        };
+        if taken.materials != contact.materials {
+            return;
+        }
+        contact.share = taken.share;
+        for (body, history) in taken.sides.iter().enumerate() {
+            let kind = self.flattened.get_mut(taken.materials[body] as usize);
+            if let (Some(kind), Some(history)) = (kind, history) {
+                kind.put(contact.sides[body] as usize, &**history);
             }
         }
     }

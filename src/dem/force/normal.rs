@@ -27,6 +27,12 @@ pub trait Histories: Send + Sync {
     /// Forgets a contact that is apart.
     fn forget(&mut self, at: usize);
 
+    /// Takes a contact's history away; it is then as one that is apart.
+    fn take(&mut self, at: usize) -> Box<dyn Any>;
+
+    /// Gives a contact the history taken from another; it begins anew where that was between other materials.
+    fn put(&mut self, at: usize, history: &dyn Any);
+
     /// Recoverable energy, J, of the law at full stiffness.
     fn elastic_energy(&self, at: usize, squeeze: Squeeze) -> f64;
 
@@ -118,6 +124,16 @@ impl<P: Press> Histories for Chunk<P> {
 
     fn forget(&mut self, at: usize) {
         self.histories[at] = P::History::default();
+    }
+
+    fn take(&mut self, at: usize) -> Box<dyn Any> {
+        Box::new(std::mem::take(&mut self.histories[at]))
+    }
+
+    fn put(&mut self, at: usize, history: &dyn Any) {
+        if let Some(history) = history.downcast_ref() {
+            self.histories[at] = *history;
+        }
     }
 
     fn elastic_energy(&self, at: usize, squeeze: Squeeze) -> f64 {

@@ -17,6 +17,10 @@ pub(in crate::dem) trait Flattened: Send + Sync {
     fn remember(&mut self, side: usize, flattening: f64, radius: f64) -> f64;
     /// Begins a side anew.
     fn forget(&mut self, side: usize);
+    /// Takes a side's history away, as if to forget it.
+    fn take(&mut self, side: usize) -> Box<dyn Any>;
+    /// Gives a side the history taken from another of the same law.
+    fn put(&mut self, side: usize, history: &dyn Any);
     /// Recoverable energy, J.
     fn elastic_energy(&self, side: usize, flattening: f64, radius: f64) -> f64;
     /// Largest flattening (m) so far, where the law remembers it.
@@ -80,6 +84,16 @@ impl<L: NormalLaw> Flattened for Sides<L> {
 
     fn forget(&mut self, side: usize) {
         self.histories[side] = L::History::default();
+    }
+
+    fn take(&mut self, side: usize) -> Box<dyn Any> {
+        Box::new(std::mem::take(&mut self.histories[side]))
+    }
+
+    fn put(&mut self, side: usize, history: &dyn Any) {
+        if let Some(history) = history.downcast_ref() {
+            self.histories[side] = *history;
+        }
     }
 
     fn elastic_energy(&self, side: usize, flattening: f64, radius: f64) -> f64 {
