@@ -103,6 +103,9 @@ pub struct Summary {
     /// Whose impact it is; absent from files of versions before 0.2.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub particle: Option<Particle>,
+    /// What a reader of the figures has to know; absent where there is nothing.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<String>,
     /// How the run ended.
     pub status: Status,
 }

@@ -335,6 +335,8 @@ fn figures(summary: &Summary) -> std::result::Result<Vec<(String, String)>, serd
         line.strip_prefix("  \"")?
             .split_once("\":")
             .map(|(key, _)| key)
+            // a column of its own says what they are made of
+            .filter(|key| *key != "warnings")
     });
     Ok(keys
         .map(|key| {

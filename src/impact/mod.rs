@@ -138,8 +138,12 @@ fn simulated(
     let mut seconds = started.elapsed().as_secs_f64();
     let finished = |record: Record| {
         let wall = record.seconds_before + std::mem::take(&mut seconds);
+        let impact = record.impact(material, radius, plan.velocity, wall);
+        for warning in &impact.summary.warnings {
+            tracing::warn!("at {} m/s: {warning}", plan.velocity);
+        }
         Simulated {
-            impact: record.impact(material, radius, plan.velocity, wall),
+            impact,
             compressed: record.compressed.map(material, radius),
             rebound: record.rebound.map(material, radius),
             memory_bytes: record.memory_bytes,

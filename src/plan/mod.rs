@@ -184,7 +184,7 @@ pub fn plan(case: &Case, velocity: f64) -> Plan {
     let (effects, plastic) = effects(case, normal);
     let mut grid = match geometry {
         Geometry::Axisymmetric => grid(&estimate, case, velocity),
-        _ => solid_grid(&estimate, case),
+        _ => solid_grid(&estimate, case, normal),
     };
     let severity = severity(material, normal);
     if geometry != Geometry::Axisymmetric && plastic {
@@ -272,11 +272,17 @@ fn geometry(case: &Case) -> Geometry {
 }
 
 /// Grid in three dimensions: coarser for the same tolerance, because the edge of the contact crosses cells at all angles and
-/// the staircase averages out. Fine cells also cover the way that the contact rolls over the surface.
-fn solid_grid(estimate: &Estimate, case: &Case) -> Grid {
+/// the staircase averages out. Fine cells also cover the way that the contact rolls over the surface at the normal `velocity`.
+///
+/// A sphere that ends up rolling turns with $\omega R = 5/7\, V_t$, one that slides to the end with
+/// $5/2\, \mu (1 + e) V_n \le 5 \mu V_n$; it gains that evenly about the middle of the contact, so it rolls half of it
+/// times the contact time.
+fn solid_grid(estimate: &Estimate, case: &Case, velocity: f64) -> Grid {
     let a = estimate.contact_radius;
+    let m = &case.material;
+    let speed = velocity / (m.young_modulus / m.density).sqrt();
     let slip = case.angle.tan().min(7.0 * case.friction);
-    let rolled = 2.0 / 7.0 * slip * estimate.contact_time * estimate.displacement / 2.94;
+    let rolled = 5.0 / 14.0 * slip * speed * estimate.contact_time;
     Grid {
         degree: 2,
         points_per_direction: 2,

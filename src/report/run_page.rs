@@ -268,7 +268,13 @@ impl RunPage<'_> {
                 Status::Failed(reason) => format!("failed: {reason}"),
             });
         }
-        Section::new("Energy audit").with(Block::Table(table))
+        let warnings = self.impacts.iter().flat_map(|summary| {
+            let speed = engineering(summary.velocity_m_s, "m/s", 4);
+            (summary.warnings.iter()).map(move |warning| format!("Warning, at {speed}: {warning}."))
+        });
+        Section::new("Energy audit")
+            .with(Block::Table(table))
+            .with(Block::List(warnings.collect()))
     }
 
     fn law_section(&self) -> Section {

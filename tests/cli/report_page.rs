@@ -38,6 +38,7 @@ fn summary(velocity_m_s: f64, status: Status) -> Summary {
         plastic_work_ratio: 0.5298,
         energy_closure: 1e-5,
         eroded_volume_ratio: 0.0,
+        warnings: Vec::new(),
         points: 20_000,
         steps: 123_456,
         wall_s: 2.0,

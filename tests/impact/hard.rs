@@ -1,7 +1,7 @@
 //! Hard cases: the corners of the range and beyond, each against bounds that can be derived.
 
 use impactlaw::case::Case;
-use impactlaw::curve::{Impact, Status};
+use impactlaw::curve::{Impact, MapPoint, Part, Status};
 use impactlaw::impact::{Simulated, simulate, simulate_repeated};
 use impactlaw::plan::{Plan, plan};
 use rayon::prelude::*;
@@ -170,6 +170,7 @@ fn just_above_the_yield_speed_the_impact_is_that_just_below_it() {
     };
     let slow = at(0.3).simulated().summary;
     assert!(slow.restitution > 0.995 && slow.plastic_work_ratio == 0.0);
+    assert_eq!(slow.compression_ratio, 0.0);
     let (displacement, _) = at(0.3).hertz();
     assert!(change(slow.max_displacement_m, displacement) < 0.03);
     let (below, above) = (at(0.99).simulated().summary, at(1.01).simulated().summary);
@@ -244,6 +245,42 @@ fn a_crushed_rim_is_found_by_the_time_step_although_another_mode_was_the_fastest
     let s = body.simulated().summary;
     assert!((0.6..0.63).contains(&(s.max_displacement_m / body.radius)));
     assert!(s.eroded_volume_ratio < 0.01);
+}
+
+#[test]
+fn a_surface_that_folds_over_leaves_no_material_below_the_wall() {
+    for (ratio, severity, poisson_ratio) in
+        [(40.0, 9.0, 0.3), (400.0, 14.0, 0.0), (100.0, 15.0, 0.3)]
+    {
+        let body = Body {
+            poisson_ratio,
+            tolerance: 0.1,
+            ..Body::yielding(ratio, severity)
+        };
+        let (case, plan) = body.planned();
+        let done = simulate(&case.material, case.radius, &plan);
+        let s = &done.impact.summary;
+        assert_eq!(s.status, Status::Ok);
+        assert!(s.max_displacement_m < body.radius && s.max_force_n > 0.0);
+        assert!((0.0..1.0).contains(&s.restitution) && s.energy_closure < 0.01);
+        // more than 1 % of the body is eroded, and the figures say so
+        assert!(s.eroded_volume_ratio > 0.01 && s.warnings[0].contains("lost its strength"));
+        let cell = plan.grid.fine * body.radius;
+        let inside = |p: &&MapPoint| p.part == Part::Inside;
+        for map in [&done.compressed, &done.rebound] {
+            for p in map.points.iter().filter(inside) {
+                assert!(p.z_m > -0.05 * cell, "{} m below the wall", -p.z_m);
+            }
+        }
+    }
+}
+
+#[test]
+fn an_impact_too_slow_for_numbers_is_not_ok() {
+    let body = Body::elastic(0.3, 1e-200);
+    let (case, plan) = body.planned();
+    let s = simulate(&case.material, case.radius, &plan).impact.summary;
+    assert!(matches!(s.status, Status::Failed(_)), "{:?}", s.status);
 }
 
 #[test]

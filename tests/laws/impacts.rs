@@ -67,6 +67,7 @@ pub fn summary(velocity: f64, figures: [f64; 5]) -> Summary {
         plastic_work_ratio: 0.0,
         energy_closure: 0.0,
         eroded_volume_ratio: 0.0,
+        warnings: Vec::new(),
         points: 0,
         steps: 0,
         wall_s: 0.0,

@@ -121,6 +121,30 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
         all
     }
 
+    /// Whether the cell whose first node is `node` has not been taken out.
+    pub fn carries(&self, node: usize) -> bool {
+        self.cells.iter().any(|cell| cell.node as usize == node)
+    }
+
+    /// Least height of a material point at displacements `u`; NaN as soon as one point's is.
+    pub fn lowest(&self, u: &[S::Vector]) -> f64 {
+        let mut lowest = f64::INFINITY;
+        for cell in &self.cells {
+            let mut cold = self.cold[cell.cold as usize..].iter();
+            for volumes in &self.volumes[cell.first as usize..cell.last as usize] {
+                let filled = volumes.array().into_iter().filter(|v| *v > 0.0);
+                for (_, (node, point)) in filled.zip(&mut cold) {
+                    let mut height = point.position[S::NORMAL];
+                    for (value, offset) in point.values.iter().zip(self.offsets) {
+                        height += value * u[*node as usize + offset].as_ref()[S::NORMAL];
+                    }
+                    lowest = if height >= lowest { lowest } else { height };
+                }
+            }
+        }
+        lowest
+    }
+
     /// Deformed position of a point whose nodes start at `node`.
     fn displaced(&self, node: usize, point: &Point<N>, u: &[S::Vector]) -> [f64; 3] {
         let mut x = point.position;

@@ -3,10 +3,10 @@
 pub mod solid;
 
 use crate::impact::grid::section::Section;
-use crate::impact::kernel::Points;
+use crate::impact::kernel::{Point, Points};
 use crate::impact::points::lattice;
 use crate::impact::points::section::{SectionPoint, SurfacePoint, clip_cell, meridian};
-use crate::impact::wall::meridian::{Contact, Wall};
+use crate::impact::wall::meridian::{Contact, ContactPoint, Wall};
 use crate::material::stress::Constitutive;
 use crate::plan::{Grid, graded};
 use crate::scheme::Layout;
@@ -95,6 +95,18 @@ pub fn build<M: Constitutive<Axisymmetric>, const P: usize, const N: usize>(
         contact.push(first, values, height, p.r);
     }
     contact.couple(&recip_mass);
+    let places: Vec<[f64; 2]> = (0..section.nodes()).map(|n| section.greville(n)).collect();
+    if grid.remedies.is_large() {
+        let columns = section.r.functions();
+        let held = |(node, point): &(u32, Point<N>)| ContactPoint {
+            node: *node as usize,
+            values: point.values,
+            height: point.position[Axisymmetric::NORMAL],
+            radius: point.position[0],
+        };
+        let held = points.unpacked().iter().map(held).collect();
+        contact.hold_interior(held, &places, &recip_mass, columns, grid.fine);
+    }
     let offsets: [usize; N] = section.offsets();
     let marker = |z: f64| {
         let (first, values) = section.interpolate::<N>(0.0, z);
@@ -105,7 +117,7 @@ pub fn build<M: Constitutive<Axisymmetric>, const P: usize, const N: usize>(
         contact,
         recip_mass,
         markers: [0.0, 1.0, 2.0].map(marker),
-        places: (0..section.nodes()).map(|n| section.greville(n)).collect(),
+        places,
         copies: 1.0,
         mass,
     }

@@ -3,6 +3,7 @@
 use super::transfer::{Remap, StepEnd};
 use crate::impact::kernel::{Part, Purpose, Sweep};
 use crate::impact::run::Run;
+use crate::impact::stepping::erosion::LEAST_J;
 use crate::impact::stepping::levels::push;
 use crate::impact::wall::meridian::{Touch, Wall};
 use crate::material::stress::Constitutive;
@@ -22,7 +23,7 @@ where
     W: Wall<S>,
     T: Remap<S::Vector>,
 {
-    /// Internal forces of a level of cells. Where a point is turned inside out its cell is taken out, or the run stops.
+    /// Internal forces of a level of cells. Where a point is crushed its cell is taken out, or the run stops.
     fn forces(&mut self, level: usize, purpose: Purpose) -> Sweep {
         let points = &mut self.model.points;
         let force = match level {
@@ -33,13 +34,14 @@ where
         self.stepped += points.blocks_of(part);
         let sweep = points.sweep_part(part, purpose, &self.u, force);
         self.plastic += sweep.plastic;
-        if sweep.least_j > 0.0 {
+        let least = if self.erosion.is_on() { LEAST_J } else { 0.0 };
+        if sweep.least_j > least {
             return sweep;
         }
         if !self.erosion.is_on() {
             let least = sweep.least_j;
             self.failure = Some(format!("volume ratio J = {least:e} at a material point"));
-        } else if let Err(reason) = self.erosion.take_out_inverted(points, &self.u) {
+        } else if let Err(reason) = self.erosion.take_out_crushed(points, &self.u) {
             self.failure = Some(reason);
         }
         // the states have moved on to these displacements: the cells that are left answer as before and dissipate no more

@@ -8,6 +8,7 @@ use crate::impact::run::{Run, UNSTABLE};
 use crate::impact::wall::meridian::Wall;
 use crate::material::stress::Constitutive;
 use crate::plan::Geometry;
+use crate::scheme::Scheme;
 use crate::space::Space;
 
 impl<S, M, W, T, const N: usize> Run<'_, S, M, W, T, N>
@@ -39,6 +40,9 @@ where
             ));
         }
         self.closure = self.closure.max(closure);
+        if self.failure.is_none() {
+            self.failure = self.below_the_wall();
+        }
         let [south, centre, north] = &self.model.markers;
         let frame = Frame {
             time: self.time,
@@ -56,6 +60,28 @@ where
         if self.compressed.is_none() && self.mean(&self.v, S::NORMAL) >= 0.0 {
             self.compressed = Some(self.snapshot());
         }
+    }
+
+    /// Whether the cell that carries a marker has not been taken out.
+    fn has(&self, marker: usize) -> bool {
+        let node = self.model.markers[marker].first();
+        node.is_some_and(|(node, _)| self.model.points.carries(*node))
+    }
+
+    /// What lies below the wall although nothing can, as a reason to stop. Only bodies that are flattened fold over or lose
+    /// surface points, so only they are searched.
+    fn below_the_wall(&self) -> Option<String> {
+        let sunk = -1.0 - self.mean(&self.u, S::NORMAL);
+        if sunk > self.plan.tolerance {
+            return Some(format!("the centre of mass is {sunk:e} R below the wall"));
+        }
+        if !self.plan.grid.remedies.is_large() {
+            return None;
+        }
+        let depth = -self.model.points.lowest(&self.u);
+        let cell = self.plan.grid.fine;
+        let cells = depth / cell;
+        (!(depth <= cell)).then(|| format!("material {cells:.1} cells below the wall"))
     }
 
     /// Displacement of a marker along the normal.
@@ -153,13 +179,14 @@ where
             None if self.time > self.plan.longest_time => Status::NoRebound,
             None => Status::Ok,
         };
-        Record {
+        let mut record = Record {
             contact_end: self.contact_end,
             exit_speed,
             speed: self.speed * self.plan.angle.cos(),
             sliding,
             closure: self.closure,
             eroded: self.erosion.volume() / self.mass,
+            has_poles: !self.erosion.is_on() || [0, 2].into_iter().all(|pole| self.has(pole)),
             plastic_strain: self.model.points.plastic_strain_volume() / self.mass,
             points: self.model.points.count(),
             steps: (self.stepped as f64 / self.blocks as f64).round() as u64,
@@ -170,6 +197,14 @@ where
             compressed: self.compressed.take().unwrap_or_default(),
             rebound,
             status,
+        };
+        // other schemes are run to see what they do
+        if record.status == Status::Ok
+            && self.plan.scheme == Scheme::default()
+            && let Err(reason) = record.verdict(self.plan.tolerance)
+        {
+            record.status = Status::Failed(reason);
         }
+        record
     }
 }

@@ -123,6 +123,8 @@ pub struct Record {
     pub closure: f64,
     /// Share of the body that lost its strength.
     pub eroded: f64,
+    /// Whether the material at both poles is still there: else nothing is left to measure the height by.
+    pub has_poles: bool,
     /// Volume mean of the equivalent plastic strain.
     pub plastic_strain: f64,
     /// Material points.
@@ -145,6 +147,11 @@ pub struct Record {
 
 /// Share of the contact time over which F is averaged before its maximum is taken.
 const FORCE_WINDOW: f64 = 0.02;
+
+/// Largest energy imbalance over the incident kinetic energy of a run whose figures hold.
+const MOST_CLOSURE: f64 = 0.01;
+/// Share of the body that may lose its strength without a warning.
+const MUCH_ERODED: f64 = 0.01;
 
 impl Record {
     /// Linear interpolation of a quantity at `time`.
@@ -198,8 +205,55 @@ impl Record {
         }
     }
 
+    /// Whether the figures are those of an impact: what no impact on a wall can do is a fault of the run.
+    ///
+    /// # Errors
+    /// The first figure that is impossible, and its bounds. `tolerance` is that of the plan.
+    pub fn verdict(&self, tolerance: f64) -> std::result::Result<(), String> {
+        let restitution = self.exit_speed / self.speed;
+        let displacement = self.largest(|f| f.displacement);
+        let force = self.max_force();
+        let closure = self.closure;
+        if !(0.0..=1.0).contains(&restitution) {
+            Err(format!("restitution {restitution:e} is not from 0 to 1"))
+        } else if !(displacement > 0.0 && displacement <= 1.0 + tolerance) {
+            Err(format!(
+                "largest displacement {displacement:e} R is not above 0 and within R: the centre of mass would be below the wall"
+            ))
+        } else if !(force > 0.0 && force.is_finite()) {
+            Err(format!("largest force {force:e} E R^2 is not above 0"))
+        } else if !(closure < MOST_CLOSURE) {
+            Err(format!(
+                "energy closure {closure:e} of the incident energy is not below {MOST_CLOSURE}"
+            ))
+        } else {
+            Ok(())
+        }
+    }
+
+    /// What a reader of the figures has to know.
+    fn warnings(&self) -> Vec<String> {
+        let mut warnings = Vec::new();
+        if self.eroded > MUCH_ERODED {
+            let share = 100.0 * self.eroded;
+            warnings.push(format!(
+                "{share:.1} % of the body lost its strength (erosion of cells squeezed too thin)"
+            ));
+        }
+        if !self.has_poles {
+            warnings.push(
+                "material at a pole was eroded: no height, so no compression ratio".to_owned(),
+            );
+        }
+        warnings
+    }
+
     /// Mean height after loss of contact, weighted by a Hann window so that part periods do not bias it.
     fn resting_height(&self) -> f64 {
+        if self.plastic_strain == 0.0 && self.eroded == 0.0 {
+            // a body that has not yielded rests as the sphere it was; the vibration it is left with does not average to that
+            return 2.0;
+        }
         let end = self.frames.last().map_or(0.0, |f| f.time);
         let span = end - self.contact_end;
         let (mut sum, mut weight) = (0.0, 0.0);
@@ -245,6 +299,7 @@ impl Record {
         let incident = self.frames[0].kinetic;
         let last = &self.frames[self.frames.len() - 1];
         let least_height = 2.0 - self.largest(|f| 2.0 - f.height);
+        let height = |found: f64| if self.has_poles { found } else { f64::NAN };
         let summary = Summary {
             velocity_m_s: velocity,
             restitution: self.exit_speed / self.speed,
@@ -253,8 +308,8 @@ impl Record {
             max_centre_displacement_m: self.largest(|f| f.centre_displacement) * radius,
             residual_displacement_m: self.at(self.contact_end, |f| f.displacement) * radius,
             contact_time_s: self.contact_end * time,
-            compression_ratio: 1.0 - 0.5 * self.resting_height(),
-            height_at_max_compression_ratio: 0.5 * least_height,
+            compression_ratio: 1.0 - 0.5 * height(self.resting_height()),
+            height_at_max_compression_ratio: 0.5 * height(least_height),
             equivalent_plastic_strain: self.plastic_strain,
             plastic_work_ratio: last.plastic / incident,
             energy_closure: self.closure,
@@ -264,6 +319,7 @@ impl Record {
             wall_s,
             tangential: self.sliding.map(|s| s.figures(radius, radius / time)),
             particle: Some(Particle::of(material, radius)),
+            warnings: self.warnings(),
             status: self.status.clone(),
         };
         Impact {

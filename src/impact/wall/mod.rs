@@ -1,6 +1,8 @@
 //! Wall: what a run asks of its contact, and what one step of contact answers.
 
 pub mod banded;
+pub mod complementarity;
+pub mod interior;
 pub mod meridian;
 pub mod surface;
 
