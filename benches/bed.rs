@@ -88,7 +88,7 @@ fn steps(criterion: &mut Criterion) {
     let hertz = Hertz::of(&MATERIAL);
     let thornton = Thornton::of(&MATERIAL, YIELD_PRESSURE_RATIO).expect("it yields");
     let (damping, friction) = (Viscous::new(0.8), Mindlin::new(&MATERIAL, 0.5));
-    let all = Law::new(damping, friction, ());
+    let all = Law::smooth().with(damping).with(friction);
     for (name, threads) in [
         ("hertz, damping, Mindlin", 1),
         ("hertz, damping, Mindlin, 2 threads", 2),
@@ -112,7 +112,7 @@ fn steps(criterion: &mut Criterion) {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("models/sac305-solder.toml");
     let solder = LawFile::read(&file).expect("a law of the repository");
     let material = solder.material();
-    let mut softened = Law::new((), Mindlin::new(&material, 0.5), ());
+    let mut softened = Law::smooth().with(Mindlin::new(&material, 0.5));
     softened.soften(MATERIAL.young_modulus / material.young_modulus);
     for (name, form, threads) in [
         ("fitted (closed form), Mindlin", Form::ClosedForm, 1),

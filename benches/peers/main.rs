@@ -117,7 +117,7 @@ fn write(folder: &Path, options: &Options) -> std::io::Result<()> {
     std::fs::write(folder.join("packing.data"), text)
 }
 
-fn bed(options: &Options) -> Bed<Law<Viscous, Mindlin, ()>> {
+fn bed(options: &Options) -> Bed<Law<(((), Viscous), Mindlin)>> {
     let parts = Parts {
         grains: shaken(options.across),
         machine: packing::walls(options.across),
@@ -133,7 +133,7 @@ fn bed(options: &Options) -> Bed<Law<Viscous, Mindlin, ()>> {
     };
     let friction = Mindlin::between([Some(&MATERIAL); 2], options.friction);
     let damping = Viscous::new(options.restitution);
-    Bed::new(Law::new(damping, friction, ()), normals, parts)
+    Bed::new(Law::smooth().with(damping).with(friction), normals, parts)
 }
 
 /// Peak memory of this process in bytes, where /proc tells.

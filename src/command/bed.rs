@@ -4,6 +4,7 @@ use super::bed_export::BedExportArgs;
 use super::impact::interval;
 use super::{Command, Context, Verdict, on_a_worker, output_folder};
 use crate::bed::measures::gauge::Finding;
+use crate::bed::measures::series::CLOSURE;
 use crate::bed::run::{BedReport, Options, run_scene};
 use crate::bed::scene::{Scene, Stage};
 use crate::law::LawFile;
@@ -14,9 +15,6 @@ use indicatif::ProgressBar;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
-
-/// Largest energy imbalance over turnover a run may show.
-const CLOSURE: f64 = 0.01;
 
 /// Run a granular bed from a scene file.
 #[derive(Debug, Args)]

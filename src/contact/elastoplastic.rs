@@ -256,6 +256,7 @@ impl<L: Loading> NormalLaw for Elastoplastic<L> {
                 force,
                 stiffness,
                 contact_radius,
+                depth: x.max(0.0),
             };
         }
         *history = self.unloaded(history);
@@ -279,7 +280,26 @@ impl<L: Loading> NormalLaw for Elastoplastic<L> {
             force: secant * past,
             stiffness: secant * history.exponent,
             contact_radius,
+            depth: past,
         }
+    }
+
+    fn depth(&self, x: f64, history: &Memory) -> f64 {
+        if x >= history.flattening {
+            return x.max(0.0);
+        }
+        (x - self.unloaded(history).residual).max(0.0)
+    }
+
+    fn dissipated(&self, history: &Memory) -> f64 {
+        let branch = self.unloaded(history);
+        if branch.elastic() {
+            return 0.0;
+        }
+        let work = self.loading.work(branch.flattening / self.units.flattening);
+        let span = branch.flattening - branch.residual;
+        self.units.force * self.units.flattening * work
+            - branch.force * span / (branch.exponent + 1.0)
     }
 
     fn elastic_energy(&self, x: f64, history: &Memory) -> f64 {

@@ -173,24 +173,31 @@ impl Loading for SoftenedHertz {
         if w <= self.departure {
             return hertz_work(w);
         }
-        let start = self.departure.sqrt();
-        let mut sum = hertz_work(self.departure);
-        let mut high = w.sqrt();
-        while high > start {
-            let low = (0.5 * high).max(start);
-            let half = 0.5 * (high - low);
-            for (node, weight) in GAUSS_5 {
-                let s = low + half * (1.0 + node);
-                sum += weight * half * 2.0 * s * self.force(s * s) * g(s * s);
-            }
-            high = low;
-        }
-        sum
+        let rest = work_between(self.departure, w, |w| self.force(w) * g(w));
+        hertz_work(self.departure) + rest
     }
 
     fn exponent_bounds(&self) -> Vec<(f64, f64)> {
         vec![(self.departure, 1.5)]
     }
+}
+
+/// Integral of a smooth `force` from `start` to `end`; 0 if that is less: five Gauss-Legendre nodes on panels that halve in the
+/// root of the flattening.
+pub(crate) fn work_between(start: f64, end: f64, force: impl Fn(f64) -> f64) -> f64 {
+    let start = start.sqrt();
+    let mut sum = 0.0;
+    let mut high = end.max(0.0).sqrt();
+    while high > start {
+        let low = (0.5 * high).max(start);
+        let half = 0.5 * (high - low);
+        for (node, weight) in GAUSS_5 {
+            let s = low + half * (1.0 + node);
+            sum += weight * half * 2.0 * s * force(s * s);
+        }
+        high = low;
+    }
+    sum
 }
 
 /// Nodes on [-1, 1] and weights of Gauss-Legendre quadrature of order ten (Abramowitz and Stegun, table 25.4).

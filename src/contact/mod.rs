@@ -45,11 +45,20 @@ pub trait NormalLaw: Clone + Send + Sync + 'static {
             contact_radius: self
                 .contact_radius(x, history)
                 .unwrap_or_else(|| x.max(0.0).sqrt()),
+            depth: self.depth(x, history),
         }
     }
 
+    /// Flattening since the force was zero on the present branch, over R: `x` on first loading, else past where unloading loses
+    /// contact; 0 where contact is lost.
+    fn depth(&self, x: f64, history: &Self::History) -> f64;
+
     /// Recoverable energy over $R^3$ (Pa): area under the unloading branch from `x` down to zero force.
     fn elastic_energy(&self, x: f64, history: &Self::History) -> f64;
+
+    /// Energy over $R^3$ (Pa) that plastic flow has dissipated: work of first loading up to the largest flattening, less what is
+    /// recoverable from there. Exactly 0 as long as nothing has yielded.
+    fn dissipated(&self, history: &Self::History) -> f64;
 
     /// Contact radius over R, where the law states one.
     fn contact_radius(&self, x: f64, history: &Self::History) -> Option<f64>;
@@ -78,6 +87,8 @@ pub struct State {
     pub stiffness: f64,
     /// Contact radius $a/R$: what the law states, else that of a sphere cut by a plane, $a^2 = R\delta$.
     pub contact_radius: f64,
+    /// Flattening over R since the force was zero on the present branch.
+    pub depth: f64,
 }
 
 /// Calls generic code with the concrete law behind a name: one `match`, outside every loop.

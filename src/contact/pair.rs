@@ -36,6 +36,8 @@ pub struct Pressed {
     pub contact_radius: f64,
     /// Flattening of the first and of the second body, m.
     pub flattening: [f64; 2],
+    /// Overlap since the force was zero on the present branch, m.
+    pub depth: f64,
 }
 
 /// What presses: a pair of bodies, or a body and a rigid surface.
@@ -47,6 +49,9 @@ pub trait Press: Clone + Send + Sync + 'static {
 
     /// Recoverable energy (J) at `overlap`, the history being up to date.
     fn elastic_energy(&self, overlap: f64, radii: [f64; 2], history: &Self::History) -> f64;
+
+    /// Energy (J) plastic flow has dissipated.
+    fn dissipated(&self, radii: [f64; 2], history: &Self::History) -> f64;
 
     /// Largest overlap (m) so far of bodies of `radii` (m), where the law remembers it.
     fn largest_overlap(&self, radii: [f64; 2], history: &Self::History) -> Option<f64>;
@@ -71,11 +76,16 @@ impl<L: NormalLaw> Press for Flat<L> {
             stiffness: radius * state.stiffness,
             contact_radius: radius * state.contact_radius,
             flattening: [overlap, 0.0],
+            depth: radius * state.depth,
         }
     }
 
     fn elastic_energy(&self, overlap: f64, radii: [f64; 2], history: &L::History) -> f64 {
         radii[0].powi(3) * self.0.elastic_energy(overlap / radii[0], history)
+    }
+
+    fn dissipated(&self, radii: [f64; 2], history: &L::History) -> f64 {
+        radii[0].powi(3) * self.0.dissipated(history)
     }
 
     fn largest_overlap(&self, radii: [f64; 2], history: &L::History) -> Option<f64> {
@@ -117,11 +127,16 @@ impl<L: NormalLaw> Press for Twins<L> {
             stiffness: 0.5 * radius * state.stiffness,
             contact_radius: radius * state.contact_radius,
             flattening: [half, half],
+            depth: 2.0 * radius * state.depth,
         }
     }
 
     fn elastic_energy(&self, overlap: f64, radii: [f64; 2], history: &L::History) -> f64 {
         2.0 * radii[0].powi(3) * self.0.elastic_energy(0.5 * overlap / radii[0], history)
+    }
+
+    fn dissipated(&self, radii: [f64; 2], history: &L::History) -> f64 {
+        2.0 * radii[0].powi(3) * self.0.dissipated(history)
     }
 
     fn largest_overlap(&self, radii: [f64; 2], history: &L::History) -> Option<f64> {
@@ -166,12 +181,17 @@ impl<L: NormalLaw> Press for Alike<L> {
             stiffness: 0.5 * radius * state.stiffness,
             contact_radius: radius * state.contact_radius,
             flattening: [half, half],
+            depth: 2.0 * radius * state.depth,
         }
     }
 
     fn elastic_energy(&self, overlap: f64, radii: [f64; 2], history: &L::History) -> f64 {
         let radius = radius_of_sides(radii);
         2.0 * radius.powi(3) * self.0.elastic_energy(0.5 * overlap / radius, history)
+    }
+
+    fn dissipated(&self, radii: [f64; 2], history: &L::History) -> f64 {
+        2.0 * radius_of_sides(radii).powi(3) * self.0.dissipated(history)
     }
 
     fn largest_overlap(&self, radii: [f64; 2], history: &L::History) -> Option<f64> {

@@ -49,6 +49,8 @@ pub trait Envelope: Clone + Send + Sync + 'static {
     fn loading(&self, x: f64) -> f64;
     /// Its slope, Pa.
     fn loading_slope(&self, x: f64) -> f64;
+    /// Work of first loading over $R^3$, Pa: its integral from 0.
+    fn loading_work(&self, x: f64) -> f64;
     /// Contact radius over R on first loading.
     fn loading_contact_radius(&self, x: f64) -> f64;
     /// Branch that leaves the loading curve at flattening `peak` with reduced force `force`.
@@ -123,6 +125,21 @@ impl<E: Envelope> NormalLaw for E {
         } else {
             0.0
         }
+    }
+
+    fn depth(&self, x: f64, peak: &Peak) -> f64 {
+        if x >= peak.flattening {
+            return x.max(0.0);
+        }
+        (x - peak.residual).max(0.0)
+    }
+
+    /// A branch that loses contact at no flattening is the loading curve itself.
+    fn dissipated(&self, peak: &Peak) -> f64 {
+        if peak.residual <= 0.0 {
+            return 0.0;
+        }
+        self.loading_work(peak.flattening) - self.elastic_energy(peak.flattening, peak)
     }
 
     fn elastic_energy(&self, x: f64, peak: &Peak) -> f64 {

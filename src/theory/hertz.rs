@@ -101,7 +101,16 @@ impl NormalLaw for Hertz {
             force: self.prefactor * x * root,
             stiffness: 1.5 * self.prefactor * root,
             contact_radius: root,
+            depth: x,
         }
+    }
+
+    fn depth(&self, x: f64, _: &()) -> f64 {
+        x.max(0.0)
+    }
+
+    fn dissipated(&self, _: &()) -> f64 {
+        0.0
     }
 
     /// $\tfrac25 \varphi x$.

@@ -4,6 +4,7 @@
 use super::envelope::{Envelope, Unloading};
 use super::hertz::Hertz;
 use super::published::{Published, PublishedLaw, Restitution};
+use crate::contact::loading::work_between;
 use crate::material::Material;
 
 /// $w$ up to which the sphere is Hertzian.
@@ -132,6 +133,12 @@ impl Envelope for JacksonGreen {
             + t.hardness * plastic_rate * t.w
             + t.hardness * t.plastic;
         self.critical_force / self.critical_flattening * (elastic + plastic)
+    }
+
+    fn loading_work(&self, x: f64) -> f64 {
+        let hertz_to = ELASTIC_TO * self.critical_flattening;
+        let elastic = 0.4 * x.min(hertz_to) * self.elastic.reduced_force(x.min(hertz_to));
+        elastic + work_between(hertz_to, x, |x| self.loading(x))
     }
 
     fn loading_contact_radius(&self, x: f64) -> f64 {

@@ -82,6 +82,12 @@ impl Envelope for Johnson {
         }
     }
 
+    fn loading_work(&self, x: f64) -> f64 {
+        let elastic = x.min(self.meeting);
+        0.4 * elastic * self.elastic.reduced_force(elastic)
+            + 0.5 * self.slope * (x * x - elastic * elastic)
+    }
+
     fn loading_contact_radius(&self, x: f64) -> f64 {
         if x <= self.meeting {
             x.sqrt()

@@ -117,6 +117,24 @@ impl Envelope for KogutEtsion {
         }
     }
 
+    fn loading_work(&self, x: f64) -> f64 {
+        let w = x / self.critical_flattening;
+        let mut work = 0.4 * w.min(1.0).powf(2.5);
+        let mut from = 1.0;
+        for row in &ROWS {
+            let (factor, power) = (row.force.0, row.force.1 + 1.0);
+            let to = w.min(row.to);
+            if to > from {
+                work += factor / power * (to.powf(power) - from.powf(power));
+                from = to;
+            }
+        }
+        let slope = self.plastic_slope * self.critical_flattening / self.critical_force;
+        let plastic = 0.5 * slope * (w * w - from * from).max(0.0);
+        let plastic = if w > from { plastic } else { 0.0 };
+        self.critical_force * self.critical_flattening * (work + plastic)
+    }
+
     fn loading_contact_radius(&self, x: f64) -> f64 {
         let w = x / self.critical_flattening;
         let area = match Self::row(w) {

@@ -119,6 +119,13 @@ impl Envelope for Luding {
         }
     }
 
+    fn loading_work(&self, x: f64) -> f64 {
+        let plastic = x.min(self.limit_flattening);
+        let from_residual = |x: f64| (x - self.limit_residual) * (x - self.limit_residual);
+        let past = from_residual(x) - from_residual(plastic);
+        0.5 * (self.loading * plastic * plastic + self.limit * past)
+    }
+
     fn loading_contact_radius(&self, x: f64) -> f64 {
         x.sqrt()
     }

@@ -115,6 +115,13 @@ impl Envelope for Thornton {
         }
     }
 
+    fn loading_work(&self, x: f64) -> f64 {
+        let elastic = x.min(self.yield_flattening);
+        let past = x - elastic;
+        0.4 * elastic * self.elastic.reduced_force(elastic)
+            + past * (self.yield_force + 0.5 * self.slope * past)
+    }
+
     fn loading_contact_radius(&self, x: f64) -> f64 {
         x.sqrt()
     }

@@ -125,6 +125,10 @@ impl Envelope for WaltonBraun {
         self.loading
     }
 
+    fn loading_work(&self, x: f64) -> f64 {
+        0.5 * self.loading * x * x
+    }
+
     fn loading_contact_radius(&self, x: f64) -> f64 {
         x.sqrt()
     }

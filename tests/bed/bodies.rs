@@ -14,7 +14,7 @@ use impactlaw::material::Material;
 use impactlaw::theory::hertz::Hertz;
 use parry3d::math::{Rotation, Vector};
 
-type Frictional = Law<Viscous, Mindlin, RollingSpring>;
+type Frictional = Law<((((), Viscous), Mindlin), RollingSpring)>;
 
 const GLASS: Material = Material {
     density: 2500.0,
@@ -24,11 +24,10 @@ const GLASS: Material = Material {
 };
 
 fn frictional() -> Frictional {
-    Law::new(
-        Viscous::new(0.7),
-        Mindlin::new(&GLASS, 0.4),
-        RollingSpring::new(&GLASS, 0.05),
-    )
+    Law::smooth()
+        .with(Viscous::new(0.7))
+        .with(Mindlin::new(&GLASS, 0.4))
+        .with(RollingSpring::new(&GLASS, 0.05))
 }
 
 fn weightless<C: ContactLaw>(

@@ -44,6 +44,18 @@ impl NormalLaw for Straight {
         }
     }
 
+    fn depth(&self, x: f64, deepest: &f64) -> f64 {
+        if x < *deepest {
+            (x - deepest * (1.0 - self.loading / self.unloading)).max(0.0)
+        } else {
+            x
+        }
+    }
+
+    fn dissipated(&self, deepest: &f64) -> f64 {
+        0.5 * self.loading * deepest * deepest * (1.0 - self.loading / self.unloading)
+    }
+
     fn elastic_energy(&self, x: f64, deepest: &f64) -> f64 {
         let force = (self.loading * deepest - self.unloading * (deepest - x)).max(0.0);
         0.5 * force * force / self.unloading
@@ -74,6 +86,14 @@ impl<L: NormalLaw> NormalLaw for Bare<L> {
 
     fn stiffness(&self, x: f64, history: &L::History) -> f64 {
         self.law.stiffness(x, history)
+    }
+
+    fn depth(&self, x: f64, history: &L::History) -> f64 {
+        self.law.depth(x, history)
+    }
+
+    fn dissipated(&self, history: &L::History) -> f64 {
+        self.law.dissipated(history)
     }
 
     fn elastic_energy(&self, x: f64, history: &L::History) -> f64 {
@@ -115,7 +135,7 @@ pub fn bed<C: ContactLaw>(
 }
 
 pub fn smooth() -> Law {
-    Law::new((), (), ())
+    Law::smooth()
 }
 
 pub fn empty() -> Machine {

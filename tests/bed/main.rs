@@ -21,6 +21,7 @@ mod program;
 mod refusals;
 mod removal;
 mod restart;
+mod restitution;
 mod resume;
 mod scene_run;
 mod scenes;

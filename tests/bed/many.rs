@@ -73,14 +73,13 @@ fn normals<L: NormalLaw>(law: &L) -> Normals {
     }
 }
 
-type Frictional = Law<Viscous, Mindlin, RollingSpring>;
+type Frictional = Law<((((), Viscous), Mindlin), RollingSpring)>;
 
 fn frictional(material: &Material) -> Frictional {
-    Law::new(
-        Viscous::new(0.7),
-        Mindlin::new(material, 0.4),
-        RollingSpring::new(material, 0.05),
-    )
+    Law::smooth()
+        .with(Viscous::new(0.7))
+        .with(Mindlin::new(material, 0.4))
+        .with(RollingSpring::new(material, 0.05))
 }
 
 /// The scene's grains falling into its box under a law that yields, after `steps`.
@@ -123,7 +122,7 @@ fn one_and_two_threads_give_the_same_bits() {
         one.contacts
             .memory
             .iter()
-            .any(|memory| memory.tangential != Slider::default())
+            .any(|memory| memory.effects.0.1 != Slider::default())
     );
     assert_eq!(one.grains, two.grains);
     assert!(one.contacts.same(&two.contacts) && one.surfaces.same(&two.surfaces));
@@ -165,8 +164,7 @@ fn a_scene_closes_its_energy_keeps_its_grains_and_tells_laws_apart() {
     assert!(thornton.summary.max_stress_pa < hertz.summary.max_stress_pa);
     assert!(thornton.summary.residual_strain > hertz.summary.residual_strain);
     for run in &report.laws {
-        let dissipated =
-            |at: usize| run.rows[at].friction_j + run.rows[at].damping_j + run.rows[at].plastic_j;
+        let dissipated = |at: usize| run.rows[at].dissipated();
         assert!(
             dissipated(run.rows.len() - 1) > dissipated(0),
             "{}",

@@ -4,12 +4,12 @@ use impactlaw::contact::pair::{Alike, Flat, Pressed};
 use impactlaw::dem::bodies::machine::Machine;
 use impactlaw::dem::bodies::{Body, Mobility, Solid};
 use impactlaw::dem::dynamics::{Bed, Normals, Parts};
-use impactlaw::dem::force::by_material::{Table, mixed};
+use impactlaw::dem::force::by_material::Table;
 use impactlaw::dem::force::damping::Viscous;
 use impactlaw::dem::force::effects::{ContactLaw, Law};
 use impactlaw::dem::force::friction::Mindlin;
 use impactlaw::dem::force::mixture::{Mixture, RIGID};
-use impactlaw::dem::force::named::Effects;
+use impactlaw::dem::force::named::{Effects, mixed};
 use impactlaw::dem::force::normal::{Histories, Model, NormalModel, Squeeze};
 use impactlaw::dem::grains::Grains;
 use impactlaw::law::AnyLaw;
@@ -205,7 +205,9 @@ fn a_bed_of_one_material_is_the_same_as_a_mixture() {
         wall: Box::new(Model(Flat(thornton))),
     };
     let one = bed(
-        Law::new(Viscous::new(0.8), Mindlin::new(&SOFT, 0.3), ()),
+        Law::smooth()
+            .with(Viscous::new(0.8))
+            .with(Mindlin::new(&SOFT, 0.3)),
         normals,
         [0, 0],
         6000,
@@ -234,7 +236,7 @@ fn a_mixture_closes_its_energy_and_remembers_across_listings() {
     }
     bed.evaluate().unwrap();
     let end = bed.energies();
-    assert!(end.plastic > 0.0 && end.friction > 0.0, "{end:?}");
+    assert!(end.plastic > 0.0 && end.losses.friction > 0.0, "{end:?}");
     let off = (end.balance() - start.balance()).abs();
     assert!(off < 2e-3 * end.turnover(), "{off} of {}", end.turnover());
 }

@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 
 /// Grain under Hertz's and Mindlin's laws thrown obliquely on the floor; returns velocity and spin afterwards.
 fn oblique(material: &Material, friction: f64, velocity: Vector) -> [Vector; 2] {
-    let effects = Law::new((), Mindlin::new(material, friction), ());
+    let effects = Law::smooth().with(Mindlin::new(material, friction));
     thrown(effects, Hertz::of(material), material, velocity, 4000.0)
 }
 
@@ -46,7 +46,7 @@ fn a_yielding_grain_that_slides_through_leaves_as_a_rigid_body_with_coulomb_fric
         contact_radius: Some(0.002),
     };
     let (mu, v_n, v_t, e) = (0.2, 1e-4, 3e-4, 0.5);
-    let effects = Law::new((), Mindlin::new(&MATERIAL, mu), ());
+    let effects = Law::smooth().with(Mindlin::new(&MATERIAL, mu));
     let velocity = Vector::new(v_t, 0.0, -v_n);
     let [velocity, spin] = thrown(effects, law, &MATERIAL, velocity, 20_000.0);
     let change = mu * (1.0 + e) * v_n;
@@ -159,7 +159,7 @@ fn a_grain_that_sticks_to_linear_springs_turns_back_as_their_periods_say() {
         law,
         contact_radius: Some(constant),
     };
-    let effects = Law::new((), Mindlin::new(&MATERIAL, 1e9), ());
+    let effects = Law::smooth().with(Mindlin::new(&MATERIAL, 1e9));
     let (v_t, v_n) = (1e-5, 1e-5);
     let velocity = Vector::new(v_t, 0.0, -v_n);
     let [velocity, spin] = thrown(effects, law, &MATERIAL, velocity, 20_000.0);

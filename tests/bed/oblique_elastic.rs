@@ -26,7 +26,7 @@ fn kappa(nu: f64) -> f64 {
 
 /// Speed of the ball's surface along the wall after an impact with `slip` before, at the normal speed [`SLOW`].
 fn slip_after(friction: f64, slip: f64, steps: f64) -> f64 {
-    let effects = Law::new((), Mindlin::new(&BALL, friction), ());
+    let effects = Law::smooth().with(Mindlin::new(&BALL, friction));
     let velocity = Vector::new(slip, 0.0, -SLOW);
     let [velocity, spin] = thrown(effects, Hertz::of(&BALL), &BALL, velocity, steps);
     velocity.x - RADIUS * spin.y

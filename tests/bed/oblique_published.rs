@@ -92,7 +92,9 @@ const STEEL: Material = Material {
 /// those of Hertz in proportion to the radius.
 fn oxide(degrees: f64) -> f64 {
     let (sin, cos) = degrees.to_radians().sin_cos();
-    let effects = Law::new(Viscous::new(0.98), Mindlin::new(&OXIDE, 0.092), ());
+    let effects = Law::smooth()
+        .with(Viscous::new(0.98))
+        .with(Mindlin::new(&OXIDE, 0.092));
     let velocity = Vector::new(3.9 * sin, 0.0, -3.9 * cos);
     let [after, _] = thrown(effects, Hertz::of(&OXIDE), &OXIDE, velocity, 2000.0);
     after.x / velocity.x
@@ -101,7 +103,7 @@ fn oxide(degrees: f64) -> f64 {
 /// Recoil and spin numbers of the elastic ball.
 fn steel(incidence: f64) -> [f64; 2] {
     let (mu, v_n) = (0.3, 5.0);
-    let effects = Law::new((), Mindlin::new(&STEEL, mu), ());
+    let effects = Law::smooth().with(Mindlin::new(&STEEL, mu));
     let velocity = Vector::new(incidence * mu * v_n, 0.0, -v_n);
     let [after, spin] = thrown(effects, Hertz::of(&STEEL), &STEEL, velocity, 2000.0);
     let slip = after.x - RADIUS * spin.y;

@@ -22,7 +22,7 @@ const MATERIAL: Material = Material {
     flow: Some(Flow::perfectly_plastic(1e6)),
 };
 
-type Frictional = Law<Viscous, Mindlin, ()>;
+type Frictional = Law<(((), Viscous), Mindlin)>;
 
 fn bed(grains: Grains, gravity: Vector) -> Bed<Frictional> {
     let law = Thornton::of(&MATERIAL, YIELD_PRESSURE_RATIO).unwrap();
@@ -37,7 +37,9 @@ fn bed(grains: Grains, gravity: Vector) -> Bed<Frictional> {
         dt: 4e-6,
         skin: 0.2 * RADIUS,
     };
-    let effects = Law::new(Viscous::new(0.9), Mindlin::new(&MATERIAL, 0.4), ());
+    let effects = Law::smooth()
+        .with(Viscous::new(0.9))
+        .with(Mindlin::new(&MATERIAL, 0.4));
     Bed::new(effects, normals, parts)
 }
 

@@ -16,7 +16,7 @@ use parry3d::math::Vector;
 fn half_an_impact(law: impl NormalLaw) -> [[f64; 2]; 2] {
     let mass = MATERIAL.sphere_mass(RADIUS);
     let time = rebound(&law, RADIUS, mass, 2.0).contact_time;
-    let effects = Law::new((), Mindlin::new(&MATERIAL, 0.3), ());
+    let effects = Law::smooth().with(Mindlin::new(&MATERIAL, 0.3));
     let mut grains = Grains::default();
     let place = Vector::new(0.0, 0.0, RADIUS * (1.0 + 1e-9));
     grains.add(place, RADIUS, MATERIAL.density);

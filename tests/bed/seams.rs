@@ -251,8 +251,10 @@ fn plate(x: [f64; 2]) -> Body {
     }
 }
 
+type Frictional = Law<((((), Viscous), Mindlin), RollingSpring)>;
+
 /// A grain thrown along floors with friction and rolling resistance.
-fn slid(floors: Vec<Body>, yields: bool) -> Bed<Law<Viscous, Mindlin, RollingSpring>> {
+fn slid(floors: Vec<Body>, yields: bool) -> Bed<Frictional> {
     let material = Material {
         flow: yields.then_some(Flow::perfectly_plastic(50e3)),
         ..GLASS
@@ -268,11 +270,10 @@ fn slid(floors: Vec<Body>, yields: bool) -> Bed<Law<Viscous, Mindlin, RollingSpr
         dt: 5e-6,
         skin: 0.5e-3,
     };
-    let law = Law::new(
-        Viscous::new(0.7),
-        Mindlin::new(&GLASS, 0.4),
-        RollingSpring::new(&GLASS, 0.05),
-    );
+    let law = Law::smooth()
+        .with(Viscous::new(0.7))
+        .with(Mindlin::new(&GLASS, 0.4))
+        .with(RollingSpring::new(&GLASS, 0.05));
     let normals = match yields {
         false => Normals {
             pair: Box::new(Model(Twins(Hertz::of(&GLASS)))),

@@ -102,7 +102,7 @@ impl Start {
             skin: 0.2 * packing::RADIUS,
         };
         let friction = Mindlin::new(&self.law.material(), 0.5);
-        let effects = Law::new(Viscous::new(0.8), friction, ());
+        let effects = Law::smooth().with(Viscous::new(0.8)).with(friction);
         let mut bed = Bed::new(effects, self.law.core.visit(Both), parts);
         // velocities of this library live half a step before the positions, those given to the others do not
         bed.evaluate().unwrap();
@@ -171,7 +171,7 @@ struct Row {
     height: f64,
 }
 
-fn row(bed: &Bed<Law<Viscous, Mindlin, ()>>) -> Row {
+fn row(bed: &Bed<Law<(((), Viscous), Mindlin)>>) -> Row {
     let mut row = Row {
         motion: 0.0,
         spin: 0.0,

@@ -249,6 +249,37 @@ fn what_is_not_exported_is_refused_by_name_and_nothing_is_written() {
 }
 
 #[test]
+fn periodic_sides_pairs_and_domains_are_refused_by_name_instead_of_left_out() {
+    let text = std::fs::read_to_string(scene(tempfile::tempdir().unwrap().path())).unwrap();
+    let pair = "\n[[pair]]\nbetween = [\"grains\", \"grains\"]\nfriction = 0.1\n";
+    let corner = |edge| format!("[\"{edge} m\", \"{edge} m\", \"{edge} m\"]");
+    let domain = format!("\n[domain]\nlow = {}\nhigh = {}\n", corner(-1), corner(1));
+    for (key, text) in [
+        ("periodic", format!("periodic = [\"x\"]\n{text}")),
+        ("pair[0]", format!("{text}{pair}")),
+        ("domain", format!("{text}{domain}")),
+    ] {
+        let scratch = tempfile::tempdir().unwrap();
+        let file = scratch.path().join("scene.toml");
+        std::fs::write(&file, text).unwrap();
+        let out = scratch.path().join("out");
+        for code in Code::ALL {
+            let mut command = program(scratch.path());
+            command
+                .args(["bed", "export"])
+                .arg(&file)
+                .arg("-o")
+                .arg(&out);
+            let output = command.args(["--to", code.name()]).output().unwrap();
+            let said = message(&output);
+            assert_eq!(output.status.code(), Some(2), "{said}");
+            assert!(said.contains(&format!("`{key}`")), "{key}: {said}");
+            assert!(!out.exists());
+        }
+    }
+}
+
+#[test]
 fn a_code_that_is_not_known_is_refused_with_those_that_are() {
     let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/bed-oedometer.toml");
     let scratch = tempfile::tempdir().unwrap();

@@ -53,6 +53,12 @@ impl NormalLaw for Linear {
     fn stiffness(&self, _: f64, _: &f64) -> f64 {
         self.unload
     }
+    fn depth(&self, x: f64, largest: &f64) -> f64 {
+        (x - largest * (1.0 - self.load / self.unload)).max(0.0)
+    }
+    fn dissipated(&self, largest: &f64) -> f64 {
+        0.5 * self.load * largest * largest * (1.0 - self.load / self.unload)
+    }
     fn elastic_energy(&self, x: f64, largest: &f64) -> f64 {
         let force = self.force(x, &mut largest.clone());
         0.5 * force * force / self.unload

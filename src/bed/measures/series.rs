@@ -1,11 +1,15 @@
 //! Row of the bed's time series, and the account of its energy.
 
+use crate::Result;
 use crate::dem::bodies::enclosure::{PISTON, Room};
 use crate::dem::dynamics::any::AnyBed;
 use crate::dem::dynamics::state::{Energies, Packing};
+use crate::dem::force::losses::Losses;
+use crate::files::write_rows;
 use crate::material::Material;
 use crate::tape::keep_fields;
 use serde::Serialize;
+use std::path::Path;
 
 keep_fields! {
 /// One instant of a bed. Field names are the header of `bed.csv`.
@@ -53,18 +57,9 @@ pub struct Row {
     /// Energy recoverable from normal contact.
     #[serde(rename = "elastic_J")]
     pub elastic_j: f64,
-    /// Energy in tangential and rolling springs.
+    /// Energy stored by effects: in tangential and rolling springs.
     #[serde(rename = "springs_J")]
     pub springs_j: f64,
-    /// Dissipated by friction.
-    #[serde(rename = "friction_J")]
-    pub friction_j: f64,
-    /// Dissipated by rolling resistance.
-    #[serde(rename = "rolling_J")]
-    pub rolling_j: f64,
-    /// Dissipated by damping.
-    #[serde(rename = "damping_J")]
-    pub damping_j: f64,
     /// Dissipated by plastic flow.
     #[serde(rename = "plastic_J")]
     pub plastic_j: f64,
@@ -77,6 +72,9 @@ pub struct Row {
     /// Energy present and dissipated less work done, minus the same at the start.
     #[serde(rename = "imbalance_J")]
     pub imbalance_j: f64,
+    /// Dissipated by each effect; its columns stand behind the others.
+    #[serde(skip)]
+    pub losses: Losses,
 }
 }
 
@@ -177,38 +175,45 @@ impl View<'_> {
             potential_j: energies.potential,
             elastic_j: energies.elastic,
             springs_j: energies.springs,
-            friction_j: energies.friction,
-            rolling_j: energies.rolling,
-            damping_j: energies.damping,
             plastic_j: energies.plastic,
             driven_work_j: energies.driven,
             stiffening_work_j: energies.stiffening,
             imbalance_j: energies.balance() - progress.first_balance,
+            losses: energies.losses,
         }
     }
 }
 
 impl Row {
+    /// Energy dissipated so far, J.
+    #[must_use]
+    pub fn dissipated(&self) -> f64 {
+        self.losses.total() + self.plastic_j
+    }
+
     /// Energy dissipated by plastic flow over all energy dissipated so far.
     #[must_use]
     pub fn plastic_share(&self) -> f64 {
-        let lost = self.friction_j + self.rolling_j + self.damping_j + self.plastic_j;
-        self.plastic_j / lost.max(f64::MIN_POSITIVE)
+        self.plastic_j / self.dissipated().max(f64::MIN_POSITIVE)
     }
 }
+
+/// Writes `bed.csv`.
+///
+/// # Errors
+/// [`crate::Error::File`] when it cannot be written.
+pub fn write(path: &Path, provenance: &str, rows: &[Row]) -> Result<()> {
+    let rows: Vec<(&Row, Losses)> = rows.iter().map(|row| (row, row.losses)).collect();
+    write_rows(path, provenance, &rows)
+}
+
+/// Largest closure of its account a run may show.
+pub const CLOSURE: f64 = 0.01;
 
 /// Largest imbalance over the largest turnover of energy in a series: the closure of its account.
 #[must_use]
 pub fn closure(rows: &[Row]) -> f64 {
-    let turnover = |row: &Row| {
-        row.kinetic_j
-            + row.elastic_j
-            + row.springs_j
-            + row.friction_j
-            + row.rolling_j
-            + row.damping_j
-            + row.plastic_j
-    };
+    let turnover = |row: &Row| row.kinetic_j + row.elastic_j + row.springs_j + row.dissipated();
     let worst = rows
         .iter()
         .fold(0.0f64, |worst, row| worst.max(row.imbalance_j.abs()));

@@ -53,8 +53,8 @@ fn oedometer_row<'a>(law: &'a str, row: &'a Row) -> OedometerRow<'a> {
         coordination: row.coordination,
         solid_fraction: row.solid_fraction,
         plastic_j: row.plastic_j,
-        friction_j: row.friction_j,
-        damping_j: row.damping_j,
+        friction_j: row.losses.friction,
+        damping_j: row.losses.damping,
         driven_work_j: row.driven_work_j,
     }
 }

@@ -1,7 +1,7 @@
 //! Output: the figures of one bed run, `summary.json`.
 
 use crate::bed::measures::gauge::Finding;
-use crate::bed::measures::series::{Row, closure};
+use crate::bed::measures::series::{CLOSURE, Row, closure};
 use crate::files::write_atomic;
 use crate::{Error, Result};
 use serde::Serialize;
@@ -84,8 +84,8 @@ impl Summary {
     pub fn new(law: &str, rows: &[Row], counts: Counts) -> Self {
         let most =
             |value: fn(&Row) -> f64| rows.iter().max_by(|a, b| value(a).total_cmp(&value(b)));
+        let energy_closure = closure(rows);
         let (peak, deepest, last) = (most(|r| r.stress_pa), most(|r| r.strain), rows.last());
-        let dissipated = |r: &Row| r.friction_j + r.rolling_j + r.damping_j + r.plastic_j;
         Self {
             law: law.to_owned(),
             grains: counts.grains,
@@ -96,7 +96,7 @@ impl Summary {
                 .fold(f64::INFINITY, |dt, r| dt.min(r.time_step_s)),
             wall_s: counts.wall_s,
             particle_steps_per_s: counts.particle_steps as f64 / counts.wall_s,
-            energy_closure: closure(rows),
+            energy_closure,
             lost_grains: counts.lost,
             max_overlap_ratio: counts.max_overlap_ratio,
             beyond_validity: counts.beyond_validity,
@@ -104,12 +104,16 @@ impl Summary {
             residual_strain: last.map_or(0.0, |r| r.strain),
             coordination: deepest.map_or(0.0, |r| r.coordination),
             inertial_number: peak.map_or(0.0, |r| r.inertial_number),
-            plastic_share: last.map_or(0.0, |r| r.plastic_j / dissipated(r).max(f64::MIN_POSITIVE)),
+            plastic_share: last.map_or(0.0, Row::plastic_share),
             contact_stiffness: counts.contact_stiffness,
             settling_stiffness: counts.settling_stiffness,
             findings: Vec::new(),
             warnings: Vec::new(),
-            status: "ok",
+            status: if energy_closure < CLOSURE {
+                "ok"
+            } else {
+                "energy imbalance"
+            },
         }
     }
 

@@ -7,7 +7,7 @@ mod watch;
 use self::assembly::{Recipe, Start, assemble, elastic, laws};
 use self::watch::Watch;
 use crate::bed::filling::{check_bodies, insert};
-use crate::bed::measures::series::Row;
+use crate::bed::measures::series::{self, CLOSURE, Row};
 use crate::bed::record::Record;
 use crate::bed::record::oedometer;
 use crate::bed::record::summary::{Counts, Summary};
@@ -22,7 +22,6 @@ use crate::dem::bodies::machine::Machine;
 use crate::dem::dynamics::Parts;
 use crate::dem::force::named::Constants;
 use crate::dem::grains::Grains;
-use crate::files::write_rows;
 use crate::law::{AnyLaw, LawFile};
 use crate::tape::{Checkpoint, Keeper, TakenUp, VERSION};
 use crate::{Error, Result};
@@ -308,7 +307,7 @@ fn finish(
     summary.findings = findings.collect();
     summary.warnings = warnings(&run);
     let folder = folder(options, name);
-    write_rows(&folder.join("bed.csv"), options.provenance, &run.rows)?;
+    series::write(&folder.join("bed.csv"), options.provenance, &run.rows)?;
     let title = format!("{}: {name}", scene.name);
     let told = format!("{} grains, {} steps", summary.grains, summary.steps);
     watch.record.finish(run.bed.as_ref(), &title, &told)?;
@@ -344,6 +343,15 @@ fn warnings(run: &Done) -> Vec<String> {
         warnings.push(format!(
             "grains overlapped by up to {:.1} % of a diameter: contacts influence each other there",
             100.0 * tally.max_overlap_ratio
+        ));
+    }
+    let closure = series::closure(&run.rows);
+    if !(closure < CLOSURE) {
+        warnings.push(format!(
+            "the energy account is off by {:.1} % of the turnover ({:.0} % at most): the run has failed; take more steps a contact \
+             (`time.steps_per_contact`, `time.rayleigh_fraction`)",
+            100.0 * closure,
+            100.0 * CLOSURE
         ));
     }
     if !run.feed.is_done() {

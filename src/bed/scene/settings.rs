@@ -1,77 +1,88 @@
 //! Settings of a scene that are plain numbers: contact effects, time step, files.
 
 use crate::Result;
+use crate::dem::force::damping::Viscous;
+use crate::dem::force::effects::Named;
+use crate::dem::force::friction::Mindlin;
+use crate::dem::force::list::effects;
 use crate::dem::force::named::Constants;
+use crate::dem::force::rolling::RollingSpring;
 use crate::document::Document;
 use crate::unit::{Quantity, Time};
 use serde::Deserialize;
 
-/// Table `[contact]` as it is written: an effect that is not named does not act.
-#[derive(Debug, Clone, Copy, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct ContactTable {
-    friction: Option<f64>,
-    rolling: Option<f64>,
-    restitution: Option<f64>,
-    stiffness: Option<f64>,
+/// Reads the constant of the effect `E` from a table called `place`; `otherwise` says what holds without it.
+fn constant<E: Named>(
+    document: &Document,
+    place: &str,
+    key: &str,
+    value: Option<f64>,
+    otherwise: &str,
+) -> Result<Option<f64>> {
+    let must = format!("{}; leave it out for {otherwise}", E::MUST);
+    let check = |value| document.check(&format!("{place}.{key}"), value, E::allows, &must);
+    value.map(check).transpose()
 }
 
-impl ContactTable {
-    pub(super) fn check(self, document: &Document) -> Result<Constants> {
-        if let Some(friction) = self.friction {
-            document.check(
-                "contact.friction",
-                friction,
-                |f| f > 0.0,
-                "must be positive; leave it out for smooth grains",
-            )?;
+/// That every effect named in the table called `place` has the one it needs.
+fn check_needs(document: &Document, place: &str, constants: &Constants) -> Result<()> {
+    match constants.unmet() {
+        None => Ok(()),
+        Some((key, needed, why)) => {
+            let allowed = format!("needs `{place}.{needed}` beside it: {why}");
+            Err(document.reject(&format!("{place}.{key}"), allowed))
         }
-        if let Some(rolling) = self.rolling {
-            document.check(
-                "contact.rolling",
-                rolling,
-                |f| f > 0.0,
-                "must be positive; leave it out for free rolling",
-            )?;
-            if self.friction.is_none() {
-                return Err(document.reject(
-                    "contact.rolling",
-                    "needs `contact.friction` beside it: smooth grains do not roll",
-                ));
-            }
-        }
-        if let Some(restitution) = self.restitution {
-            let must = "must lie in (0, 1]; leave it out for no damping";
-            document.check(
-                "contact.restitution",
-                restitution,
-                |e| e > 0.0 && e <= 1.0,
-                must,
-            )?;
-        }
-        if let Some(stiffness) = self.stiffness {
-            let must = "must lie in (0, 1]; leave it out for the material's own stiffness";
-            document.check(
-                "contact.stiffness",
-                stiffness,
-                |s| s > 0.0 && s <= 1.0,
-                must,
-            )?;
-        }
-        let Self {
-            friction,
-            rolling,
-            restitution,
-            stiffness,
-        } = self;
-        Ok(Constants {
-            friction,
-            rolling,
-            restitution,
-            stiffness,
-        })
     }
 }
+
+macro_rules! tables {
+    ($($(#[$what:meta])* $effect:ident: $kind:ident { key: $key:ident, column: $column:literal },)+) => {
+        /// Table `[contact]` as it is written: an effect that is not named does not act.
+        #[derive(Debug, Clone, Copy, Default, Deserialize)]
+        #[serde(deny_unknown_fields)]
+        pub(super) struct ContactTable {
+            $($key: Option<f64>,)+
+            stiffness: Option<f64>,
+        }
+
+        impl ContactTable {
+            pub(super) fn check(self, document: &Document) -> Result<Constants> {
+                if let Some(stiffness) = self.stiffness {
+                    let must = "must lie in (0, 1]; leave it out for the material's own stiffness";
+                    document.check("contact.stiffness", stiffness, |s| s > 0.0 && s <= 1.0, must)?;
+                }
+                let constants = Constants {
+                    $($key: constant::<$kind>(document, "contact", stringify!($key), self.$key, <$kind as Named>::WITHOUT)?,)+
+                    stiffness: self.stiffness,
+                };
+                check_needs(document, "contact", &constants)?;
+                Ok(constants)
+            }
+        }
+
+        /// Table `[[pair]]` as it is written: what is not named is as in `[contact]`.
+        #[derive(Debug, Deserialize)]
+        #[serde(deny_unknown_fields)]
+        pub(super) struct PairTable {
+            pub(super) between: [String; 2],
+            $($key: Option<f64>,)+
+        }
+
+        impl PairTable {
+            /// Constants of the pair called `place`, `general` being those of `[contact]`.
+            pub(super) fn constants(&self, document: &Document, place: &str, general: &Constants) -> Result<Constants> {
+                let otherwise = "that of `[contact]`";
+                let constants = Constants {
+                    $($key: constant::<$kind>(document, place, stringify!($key), self.$key, otherwise)?.or(general.$key),)+
+                    stiffness: general.stiffness,
+                };
+                check_needs(document, place, &constants)?;
+                Ok(constants)
+            }
+        }
+    };
+}
+effects!(tables);
 
 /// Table `[time]` as it is written.
 #[derive(Debug, Default, Deserialize)]

@@ -21,7 +21,7 @@
 //!     .linvel(Vector::new(0.0, 0.0, -1.0));
 //! let (ball, shell) = world.insert(falling, ColliderBuilder::ball(1e-3).density(2500.0));
 //!
-//! let mut laws = Ruled::new(Hertz::new(5e7), Law::new((), (), ()), 1e-3, &mut world);
+//! let mut laws = Ruled::new(Hertz::new(5e7), Law::smooth(), 1e-3, &mut world);
 //! laws.rule(&mut world, block)?;
 //! laws.rule(&mut world, shell)?;
 //! for _ in 0..1000 {
@@ -35,7 +35,8 @@
 use crate::contact::NormalLaw;
 use crate::contact::pair::{Alike, Flat, Press, Pressed};
 use crate::dem::force::effects::ContactLaw;
-use crate::dem::force::meeting::{Losses, Push};
+use crate::dem::force::losses::Losses;
+use crate::dem::force::meeting::Push;
 use crate::{Error, Result};
 use parry3d::math::Vector;
 use rapier3d::dynamics::{IntegrationParameters, RigidBodyActivation, RigidBodyHandle};
@@ -97,8 +98,8 @@ pub struct Ruled<L: NormalLaw, C: ContactLaw> {
     subjects: BTreeMap<Key, Subject>,
     touching: BTreeMap<[Key; 2], Touching<L::History, C::Memory>>,
     losses: Losses,
-    /// Work on the normal law in contacts that are over, J.
-    spent: f64,
+    /// Energy plastic flow has dissipated in contacts that are over, J.
+    flowed: f64,
     seen: bool,
 }
 
@@ -132,7 +133,7 @@ impl<L: NormalLaw, C: ContactLaw> Ruled<L, C> {
             subjects: BTreeMap::new(),
             touching: BTreeMap::new(),
             losses: Losses::default(),
-            spent: 0.0,
+            flowed: 0.0,
             seen: false,
         }
     }
@@ -306,7 +307,7 @@ impl<L: NormalLaw, C: ContactLaw> Ruled<L, C> {
             .push(&meeting, &pressed, &held.push, &mut held.memory);
         self.losses += losses;
         if near.overlap <= 0.0 {
-            self.spent += C::work(&held.memory);
+            self.flowed += self.flowed(&held);
             return Ok(());
         }
         self.load(world, &near, &push, C::moment(&held.memory), loads);
@@ -370,12 +371,17 @@ impl<L: NormalLaw, C: ContactLaw> Ruled<L, C> {
     /// Energy dissipated by plastic flow, J.
     #[must_use]
     pub fn plastic(&self) -> f64 {
-        let work: f64 = self
-            .touching
-            .values()
-            .map(|held| C::work(&held.memory))
-            .sum();
-        self.spent + work - self.elastic()
+        let now: f64 = self.touching.values().map(|held| self.flowed(held)).sum();
+        self.flowed + now
+    }
+
+    /// Energy plastic flow has dissipated in a contact, J.
+    fn flowed(&self, held: &Touching<L::History, C::Memory>) -> f64 {
+        let dissipated = match held.radii[1].is_finite() {
+            true => self.pair.dissipated(held.radii, &held.history),
+            false => self.wall.dissipated(held.radii, &held.history),
+        };
+        C::flowed(&held.memory) + self.effects.softening() * dissipated
     }
 }
 

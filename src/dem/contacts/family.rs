@@ -6,7 +6,8 @@ use crate::contact::pair::Pressed;
 use crate::dem::bodies::machine::{Machine, Surface};
 use crate::dem::bodies::touching::{Scratch, Touch, Touches, closest, minima};
 use crate::dem::force::effects::ContactLaw;
-use crate::dem::force::meeting::{Losses, Meeting};
+use crate::dem::force::losses::Losses;
+use crate::dem::force::meeting::Meeting;
 use crate::dem::force::mixture::RIGID;
 use crate::dem::force::normal::{Histories, NormalModel, Squeeze};
 use crate::dem::grains::Grains;
@@ -209,6 +210,8 @@ impl<C: ContactLaw> Situation<'_, C> {
             };
             histories.press(&[at as u32], &[squeeze], &mut pressed);
         } else {
+            let flowed = self.law.softening() * histories.dissipated(at, meeting.radii);
+            C::book_flow(&mut patch.memory, flowed);
             histories.forget(at);
         }
         let (push, losses) = self
@@ -255,6 +258,15 @@ fn assign<M, const K: usize>(
         }
     }
     chosen
+}
+
+/// Energy (J) plastic flow has dissipated in a surface contact, its law `softening` times as stiff.
+pub(in crate::dem) fn flowed<C: ContactLaw>(
+    held: &Held<C::Memory>,
+    grains: &Grains,
+    softening: f64,
+) -> f64 {
+    C::flowed(&held.patch.memory) + softening * held.dissipated(grains)
 }
 
 impl<C: ContactLaw, const K: usize> Family<C, K> {
@@ -327,6 +339,7 @@ impl<C: ContactLaw, const K: usize> Family<C, K> {
         grains: &mut Grains,
         model: &dyn NormalModel,
         surfaces: &[Option<u8>],
+        softening: f64,
     ) {
         let mut patches = vec![Patch::default(); candidates.len() * K];
         let mut from = vec![None; candidates.len() * K];
@@ -338,8 +351,16 @@ impl<C: ContactLaw, const K: usize> Family<C, K> {
                     (0..K).for_each(|k| from[new * K + k] = Some(old * K + k));
                 }
                 Err(_) => {
-                    let work: f64 = kept.iter().map(|patch| C::work(&patch.memory)).sum();
-                    grains.plastic[pair[0] as usize] += work;
+                    let radii = [grains.spheres[pair[0] as usize].radius, f64::INFINITY];
+                    let flowed: f64 = (old * K..)
+                        .zip(kept)
+                        .map(|(at, patch)| {
+                            let history = &self.histories[at / (CHUNK * K)];
+                            C::flowed(&patch.memory)
+                                + softening * history.dissipated(at % (CHUNK * K), radii)
+                        })
+                        .sum();
+                    grains.plastic[pair[0] as usize] += flowed;
                 }
             }
         }
@@ -364,10 +385,7 @@ impl<C: ContactLaw, const K: usize> Family<C, K> {
             .all()
             .enumerate()
             .filter(|(_, held)| held.surface == surface)
-            .map(|(at, held)| {
-                let elastic = softening * held.elastic_energy(grains);
-                (at, held.grain, C::work(&held.patch.memory) - elastic)
-            })
+            .map(|(at, held)| (at, held.grain, flowed::<C>(&held, grains, softening)))
             .collect();
         for (at, grain, lost) in plastic {
             grains.plastic[grain] += lost;
@@ -377,25 +395,18 @@ impl<C: ContactLaw, const K: usize> Family<C, K> {
     }
 
     pub(in crate::dem) fn start_account(&mut self, grains: &Grains, softening: f64) {
-        let held: Vec<f64> = self
+        let before: Vec<f64> = self
             .all()
-            .map(|held| softening * held.elastic_energy(grains))
+            .map(|held| flowed::<C>(&held, grains, softening))
             .collect();
-        for (patch, held) in self.patches.iter_mut().zip(held) {
-            let work = held - C::work(&patch.memory);
-            C::book_work(&mut patch.memory, work);
+        for (patch, before) in self.patches.iter_mut().zip(before) {
+            C::book_flow(&mut patch.memory, -before);
         }
     }
 
-    pub(in crate::dem) fn book_softening(&mut self, grains: &Grains, factor: f64) -> f64 {
-        let works: Vec<f64> = self
-            .all()
-            .map(|held| factor * held.elastic_energy(grains))
-            .collect();
-        for (patch, &work) in self.patches.iter_mut().zip(&works) {
-            C::book_work(&mut patch.memory, work);
-        }
-        works.iter().sum()
+    pub(in crate::dem) fn law_work(&self, grains: &Grains) -> f64 {
+        let work = |held: Held<'_, _>| held.elastic_energy(grains) + held.dissipated(grains);
+        self.all().map(work).sum()
     }
 
     pub(in crate::dem) fn same(&self, other: &Self) -> bool {

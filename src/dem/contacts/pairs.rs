@@ -4,7 +4,8 @@
 
 use crate::contact::pair::Pressed;
 use crate::dem::force::effects::ContactLaw;
-use crate::dem::force::meeting::{Losses, Meeting, Push};
+use crate::dem::force::losses::Losses;
+use crate::dem::force::meeting::{Meeting, Push};
 use crate::dem::force::normal::{Histories, NormalModel, Squeeze};
 use crate::dem::grains::Grains;
 use crate::dem::grains::neighbours::HalfList;
@@ -184,13 +185,15 @@ impl<C: ContactLaw> Chunk<'_, C> {
         let mut losses = Losses::default();
         for near in parted {
             let at = near.at as usize;
-            self.histories.forget(at);
             let inverse = 1.0 / near.square.sqrt();
             let pair = self.pairs[at];
             let squeeze = Squeeze {
                 overlap: 0.0,
                 radii: pair.map(|grain| grains.spheres[grain as usize].radius),
             };
+            let flowed = law.softening() * self.histories.dissipated(at, squeeze.radii);
+            C::book_flow(&mut self.memory[at], flowed);
+            self.histories.forget(at);
             let meeting = meeting::<C>(grains, pair, &squeeze, near.line * inverse, inverse, dt);
             let (push, lost) = law.push(
                 &meeting,
@@ -298,13 +301,15 @@ impl<C: ContactLaw> Contacts<C> {
     }
 
     /// Lists the pairs anew; histories go with their pairs. A pair that leaves the list is apart: what its contact
-    /// dissipated by plastic flow is handed to its grains.
-    pub fn relist(&mut self, grains: &mut Grains, skin: f64) {
+    /// dissipated by plastic flow, its law `softening` times as stiff, is handed to its grains.
+    pub fn relist(&mut self, grains: &mut Grains, skin: f64, softening: f64) {
         let list = HalfList::within(&grains.room, &grains.spheres, skin);
-        for (memory, &pair) in self.memory.iter().zip(&self.list.pairs) {
+        for (at, &pair) in self.list.pairs.iter().enumerate() {
             if list.find(pair).is_none() {
+                let radii = pair.map(|grain| grains.spheres[grain as usize].radius);
+                let flowed = self.flowed(at, radii, softening);
                 pair.iter()
-                    .for_each(|&grain| grains.plastic[grain as usize] += 0.5 * C::work(memory));
+                    .for_each(|&grain| grains.plastic[grain as usize] += 0.5 * flowed);
             }
         }
         let from: Vec<Option<usize>> = list
@@ -381,6 +386,18 @@ impl<C: ContactLaw> Contacts<C> {
         } else {
             0.0
         }
+    }
+
+    /// Energy (J) plastic flow has dissipated between a pair of `radii` (m), its law `softening` times as stiff.
+    #[must_use]
+    pub fn flowed(&self, index: usize, radii: [f64; 2], softening: f64) -> f64 {
+        C::flowed(&self.memory[index]) + softening * self.dissipated(index, radii)
+    }
+
+    /// The part of that which the normal history tells, its law at full stiffness.
+    #[must_use]
+    pub fn dissipated(&self, index: usize, radii: [f64; 2]) -> f64 {
+        self.histories[index / CHUNK].dissipated(index % CHUNK, radii)
     }
 
     /// Largest stiffness (N/m) of a pair, its law at full stiffness.

@@ -57,6 +57,13 @@ impl<M> Held<'_, M> {
         }
     }
 
+    /// Energy plastic flow has dissipated by what the normal history tells, J, its law at full stiffness.
+    #[must_use]
+    pub fn dissipated(&self, grains: &Grains) -> f64 {
+        let radii = [grains.spheres[self.grain].radius, f64::INFINITY];
+        self.history.0.dissipated(self.history.1, radii)
+    }
+
     /// Largest overlap (m) so far, where the law remembers it.
     #[must_use]
     pub fn largest_overlap(&self, grains: &Grains) -> Option<f64> {

@@ -6,7 +6,7 @@ pub use super::family::{Held, Patch};
 use crate::dem::bodies::machine::{Load, Machine};
 use crate::dem::bodies::touching::MAX_TOUCHES;
 use crate::dem::force::effects::ContactLaw;
-use crate::dem::force::meeting::Losses;
+use crate::dem::force::losses::Losses;
 use crate::dem::force::normal::NormalModel;
 use crate::dem::grains::Grains;
 use parry3d::bounding_volume::BoundingVolume;
@@ -73,8 +73,9 @@ impl<C: ContactLaw> Surfaces<C> {
         self.crowd = Crowd::seat(&mut self.solids, &mut self.meshes);
     }
 
-    /// Lists the grains nearer than `skin` (m) to a surface anew; histories go with their contacts.
-    pub fn relist(&mut self, grains: &mut Grains, machine: &Machine, skin: f64) {
+    /// Lists the grains nearer than `skin` (m) to a surface anew; histories go with their contacts. What plastic flow has
+    /// dissipated in those that leave the list, their law `softening` times as stiff, is handed to the grains.
+    pub fn relist(&mut self, grains: &mut Grains, machine: &Machine, skin: f64, softening: f64) {
         let (mut solids, mut meshes) = (Vec::new(), Vec::new());
         let boxes: Vec<_> = machine
             .surfaces
@@ -101,8 +102,10 @@ impl<C: ContactLaw> Surfaces<C> {
             }
         }
         let materials = &machine.materials;
-        self.solids.relist(solids, grains, &*self.model, materials);
-        self.meshes.relist(meshes, grains, &*self.model, materials);
+        self.solids
+            .relist(solids, grains, &*self.model, materials, softening);
+        self.meshes
+            .relist(meshes, grains, &*self.model, materials, softening);
         self.seat();
     }
 
@@ -131,9 +134,10 @@ impl<C: ContactLaw> Surfaces<C> {
         self.meshes.start_account(grains, softening);
     }
 
-    /// Books energy (J) that a softening of the law by `factor` put into each touching contact; returns the sum.
-    pub fn book_softening(&mut self, grains: &Grains, factor: f64) -> f64 {
-        self.solids.book_softening(grains, factor) + self.meshes.book_softening(grains, factor)
+    /// Energy (J) put into the contacts that touch, held or dissipated, their law at full stiffness.
+    #[must_use]
+    pub fn law_work(&self, grains: &Grains) -> f64 {
+        self.solids.law_work(grains) + self.meshes.law_work(grains)
     }
 
     /// Ends the contacts with a surface, their law `softening` times as stiff: what plastic flow has dissipated in them is

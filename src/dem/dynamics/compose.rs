@@ -4,9 +4,9 @@ use super::any::AnyBed;
 use super::{Bed, Normals, Parts};
 use crate::contact::pair::{Alike, Flat, Twins};
 use crate::contact::{LawVisitor, NormalLaw};
-use crate::dem::force::by_material::{Table, mixed};
-use crate::dem::force::effects::{ContactLaw, Law};
-use crate::dem::force::named::Effects;
+use crate::dem::force::by_material::Table;
+use crate::dem::force::effects::{EffectList, Law};
+use crate::dem::force::named::{Effects, Pick, mixed};
 use crate::dem::force::normal::{Model, NormalModel};
 
 /// Builds the normal laws of a bed from a concrete law; use with anything that visits laws by name.
@@ -34,18 +34,21 @@ impl LawVisitor for NormalsOf {
 /// Bed with the effects named.
 #[must_use]
 pub fn build(normals: Normals, effects: &Effects, parts: Parts) -> Box<dyn AnyBed> {
-    match (effects.damping, effects.friction, effects.rolling) {
-        (None, None, _) => boxed(Law::new((), (), ()), normals, parts),
-        (Some(d), None, _) => boxed(Law::new(d, (), ()), normals, parts),
-        (None, Some(t), None) => boxed(Law::new((), t, ()), normals, parts),
-        (Some(d), Some(t), None) => boxed(Law::new(d, t, ()), normals, parts),
-        (None, Some(t), Some(r)) => boxed(Law::new((), t, r), normals, parts),
-        (Some(d), Some(t), Some(r)) => boxed(Law::new(d, t, r), normals, parts),
-    }
+    effects.pick(Build { normals, parts })
 }
 
-fn boxed<C: ContactLaw>(law: C, normals: Normals, parts: Parts) -> Box<dyn AnyBed> {
-    Box::new(Bed::new(law, normals, parts))
+/// A bed to be built, its effects apart.
+struct Build {
+    normals: Normals,
+    parts: Parts,
+}
+
+impl Pick for Build {
+    type Output = Box<dyn AnyBed>;
+
+    fn pick<L: EffectList>(self, effects: L) -> Box<dyn AnyBed> {
+        Box::new(Bed::new(Law::new(effects), self.normals, self.parts))
+    }
 }
 
 /// Bed of a mixture: `normals` from a [`crate::dem::force::mixture::Mixture`], effects by pair of materials.

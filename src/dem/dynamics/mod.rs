@@ -10,7 +10,7 @@ use crate::dem::bodies::machine::{Load, Machine};
 use crate::dem::contacts::pairs::Contacts;
 use crate::dem::contacts::surfaces::Surfaces;
 use crate::dem::force::effects::ContactLaw;
-use crate::dem::force::meeting::Losses;
+use crate::dem::force::losses::Losses;
 use crate::dem::force::normal::{NormalModel, Squeeze};
 use crate::dem::grains::{Grains, Motion, Sphere, Spin};
 use crate::{Error, Result};
@@ -232,9 +232,10 @@ impl<C: ContactLaw> Bed<C> {
             self.grains.room.admit(reach)?;
             self.outside.driven += self.grains.reenter(self.gravity);
         }
-        self.contacts.relist(&mut self.grains, self.skin);
+        let softening = self.law.softening();
+        self.contacts.relist(&mut self.grains, self.skin, softening);
         self.surfaces
-            .relist(&mut self.grains, &self.machine, self.skin);
+            .relist(&mut self.grains, &self.machine, self.skin, softening);
         self.listed = Listed {
             centres: self.grains.spheres.iter().map(|s| s.centre).collect(),
             poses: self.machine.surfaces.iter().map(|s| s.pose).collect(),
@@ -275,15 +276,14 @@ impl<C: ContactLaw> Bed<C> {
         sum
     }
 
-    /// Starts the account of energy: what contacts hold now counts as put in before.
+    /// Starts the account of energy: what plastic flow has dissipated so far belongs to the time before.
     ///
     /// Forces must be up to date ([`Bed::evaluate`]).
     pub fn start_account(&mut self) {
         let softening = self.law.softening();
         for index in 0..self.contacts.memory.len() {
-            let held = softening * self.contacts.elastic_energy(index, self.squeeze_of(index));
-            let memory = &mut self.contacts.memory[index];
-            C::book_work(memory, held - C::work(memory));
+            let before = self.plastic_in(index);
+            C::book_flow(&mut self.contacts.memory[index], -before);
         }
         self.surfaces.start_account(&self.grains, softening);
     }
@@ -295,12 +295,13 @@ impl<C: ContactLaw> Bed<C> {
         self.law.soften(factor);
         for index in 0..self.contacts.memory.len() {
             if self.contacts.pushes[index].touches() {
-                let work = change * self.contacts.elastic_energy(index, self.squeeze_of(index));
-                C::book_work(&mut self.contacts.memory[index], work);
-                self.outside.stiffening += work;
+                let squeeze = self.squeeze_of(index);
+                let work = self.contacts.elastic_energy(index, squeeze)
+                    + self.contacts.dissipated(index, squeeze.radii);
+                self.outside.stiffening += change * work;
             }
         }
-        self.outside.stiffening += self.surfaces.book_softening(&self.grains, change);
+        self.outside.stiffening += change * self.surfaces.law_work(&self.grains);
     }
 
     /// A listed pair as its normal law sees it; the overlap is negative if it is apart.

@@ -1,8 +1,10 @@
 //! Measures of a bed at one instant: energies, packing, stress.
 
+use crate::dem::contacts::family::flowed;
 use crate::dem::contacts::surfaces::Held;
 use crate::dem::dynamics::Bed;
 use crate::dem::force::effects::ContactLaw;
+use crate::dem::force::losses::Losses;
 use nalgebra::{Matrix3, Vector3};
 use parry3d::math::Vector;
 use std::f64::consts::PI;
@@ -16,14 +18,10 @@ pub struct Energies {
     pub potential: f64,
     /// Recoverable in normal contact.
     pub elastic: f64,
-    /// In tangential and rolling springs.
+    /// Stored by effects: in tangential and rolling springs.
     pub springs: f64,
-    /// Dissipated by friction.
-    pub friction: f64,
-    /// Dissipated by rolling resistance.
-    pub rolling: f64,
-    /// Dissipated by damping.
-    pub damping: f64,
+    /// Dissipated by each effect.
+    pub losses: Losses,
     /// Dissipated by plastic flow in contacts.
     pub plastic: f64,
     /// Work done by driven bodies and by the motors of joints.
@@ -44,7 +42,7 @@ impl Energies {
     /// Energy that has turned into heat.
     #[must_use]
     pub fn dissipated(&self) -> f64 {
-        self.friction + self.rolling + self.damping + self.plastic
+        self.losses.total() + self.plastic
     }
 
     /// Energy that has gone through the bed: what moves, what is held in contacts and what was dissipated.
@@ -105,42 +103,39 @@ impl<C: ContactLaw> Bed<C> {
         let (kinetic, potential) = self.machine.energy(&self.loads, self.dt);
         energies.kinetic += kinetic;
         energies.potential += potential;
-        let losses = self.losses();
-        energies.friction = losses.friction;
-        energies.rolling = losses.rolling;
-        energies.damping = losses.damping;
+        energies.losses = self.losses();
         self.add_contact_energies(&mut energies);
         energies
     }
 
     fn add_contact_energies(&self, energies: &mut Energies) {
         let softening = self.law.softening();
-        let mut work: f64 = self.grains.plastic.iter().sum();
+        energies.plastic = self.grains.plastic.iter().sum();
         for (index, memory) in self.contacts.memory.iter().enumerate() {
             energies.elastic +=
                 softening * self.contacts.elastic_energy(index, self.squeeze_of(index));
-            energies.springs += C::springs(memory);
-            work += C::work(memory);
+            energies.springs += C::stored(memory);
+            energies.plastic += self.plastic_in(index);
         }
         for held in self.surfaces.all() {
             energies.elastic += softening * held.elastic_energy(&self.grains);
-            energies.springs += C::springs(&held.patch.memory);
-            work += C::work(&held.patch.memory);
+            energies.springs += C::stored(&held.patch.memory);
+            energies.plastic += self.plastic_on(&held);
         }
-        energies.plastic = work - energies.elastic;
     }
 
     /// Energy plastic flow has dissipated in a listed pair, J.
     #[must_use]
     pub fn plastic_in(&self, pair: usize) -> f64 {
-        let elastic = self.contacts.elastic_energy(pair, self.squeeze_of(pair));
-        C::work(&self.contacts.memory[pair]) - self.law.softening() * elastic
+        let radii =
+            self.contacts.list.pairs[pair].map(|grain| self.grains.spheres[grain as usize].radius);
+        self.contacts.flowed(pair, radii, self.law.softening())
     }
 
     /// Energy plastic flow has dissipated in a surface contact, J.
     #[must_use]
     pub fn plastic_on(&self, held: &Held<C::Memory>) -> f64 {
-        C::work(&held.patch.memory) - self.law.softening() * held.elastic_energy(&self.grains)
+        flowed::<C>(held, &self.grains, self.law.softening())
     }
 
     /// Energy plastic flow has dissipated in the contacts of each grain, half of each contact to each grain, J.

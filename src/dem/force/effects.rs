@@ -1,21 +1,195 @@
-//! Contact law of the bed: the effects the scene names around a normal law, composed at compile time.
+//! Contact law of the bed: a list of effects around a normal law, composed at compile time.
 //!
-//! The normal law itself is pressed before, for many contacts at once, in [`super::normal`].
+//! The normal law itself is pressed before, for many contacts at once, in [`super::normal`]. What an effect is: [`Effect`];
+//! which there are: [`super::list`].
 //!
 //! Signs: the normal points from the second body to the first, the force acts on the first.
 //!
 //! **Energy ledger.** Velocities live half a step before the positions, so the work a force does between two
-//! evaluations is the mean of the forces of both times the slip of the step, exactly as the integrator spends it.
-//! The work on the normal law, on the springs and the rest (damping) are booked apart.
+//! evaluations is the mean of the forces of both times the slip of the step, exactly as the integrator spends it. Each effect
+//! books what it dissipates and tells what it stores; the normal law tells both from its own state. Nothing is booked as what
+//! is left over: that is the imbalance.
 
-use super::damping::Damping;
-use super::friction::Tangential;
-use super::meeting::{Losses, Meeting, Push};
-use super::rolling::Rolling;
+use super::losses::Losses;
+use super::meeting::{Meeting, Push};
 use crate::contact::pair::Pressed;
-use crate::tape::Keep;
+use crate::material::Material;
+use crate::tape::{Keep, keep_fields};
 use parry3d::math::Vector;
 use std::fmt::Debug;
+
+/// Something that acts in a contact beside the normal law, with a memory, a stored and a lost energy of its own.
+pub trait Effect: Clone + Send + Sync + 'static {
+    /// What a contact remembers of it; all default while apart.
+    type Memory: Copy + Default + Send + Sync + PartialEq + Keep + Debug + 'static;
+    /// Whether it pushes across the normal.
+    const ACROSS: bool;
+    /// Whether it has a moment of its own ([`Effect::moment`]).
+    const MOMENT: bool;
+    /// Whether it depends on the materials of the contact.
+    const BY_MATERIAL: bool = false;
+
+    /// Acts in `contact`, on what the effects before it have made of the force, and books what is dissipated. Called once more
+    /// after the bodies have come apart, with a normal law that is all zero.
+    fn act(&self, contact: &mut Contact, memory: &mut Self::Memory, losses: &mut Losses);
+
+    /// Moment on the first body, N m.
+    fn moment(memory: &Self::Memory) -> Vector;
+
+    /// Energy stored, J.
+    fn stored(memory: &Self::Memory) -> f64;
+
+    /// Makes its springs `factor` times as stiff as the material's.
+    fn soften(&mut self, factor: f64);
+}
+
+/// An effect as scenes name it, by one constant.
+pub trait Named: Effect {
+    /// What its constant must be, for messages.
+    const MUST: &'static str;
+    /// What there is without it, for messages: "leave it out for ...".
+    const WITHOUT: &'static str;
+    /// Key of the effect without which it cannot be, and why.
+    const NEEDS: Option<(&'static str, &'static str)>;
+
+    /// Whether the constant is as it must be.
+    fn allows(constant: f64) -> bool;
+
+    /// Effect among grains of `material` and rigid bodies.
+    fn of(constant: f64, material: &Material) -> Self;
+
+    /// Effect between two bodies of these materials, rigid ones if none.
+    fn between(constant: f64, materials: [Option<&Material>; 2]) -> Self;
+}
+
+/// A contact in one step, and what acts in it so far.
+pub struct Contact<'a> {
+    /// The two bodies.
+    pub meeting: &'a Meeting,
+    /// The normal law.
+    pub pressed: Pressed,
+    /// Push of the step before.
+    pub before: &'a Push,
+    /// Rate of approach, m/s.
+    pub approach: f64,
+    /// Relative velocity of the centres across the normal, m/s.
+    pub passing: Vector,
+    /// Distances from the centres to the point of contact, m; none for a surface, whose turning is in its velocity.
+    pub arms: [f64; 2],
+    /// Normal force so far, N.
+    pub normal_force: f64,
+    /// Force across the normal so far, N.
+    pub across: Vector,
+    /// What springs across the normal are damped by, times the root of effective mass and stiffness; 0: not at all.
+    pub dashpot: f64,
+}
+
+impl Contact<'_> {
+    /// Relative velocity of the touching points across the normal, m/s.
+    #[inline(always)]
+    #[must_use]
+    pub fn slip(&self) -> Vector {
+        let m = self.meeting;
+        let turning = m.spins[0] * self.arms[0] + m.spins[1] * self.arms[1];
+        self.passing - turning.cross(m.normal)
+    }
+
+    /// The step before.
+    #[inline(always)]
+    #[must_use]
+    pub fn past(&self) -> Past {
+        let m = self.meeting;
+        let turn = self.passing * (m.dt * m.inverse_distance);
+        let normal = m.normal - turn;
+        Past {
+            approach: self.approach + self.passing.dot(turn),
+            across: self.before.force - normal * self.before.force.dot(normal),
+        }
+    }
+}
+
+/// The step before, seen along the normal it had.
+pub struct Past {
+    /// Rate of approach of this step's motion along that normal, m/s.
+    pub approach: f64,
+    /// Force across it, N.
+    pub across: Vector,
+}
+
+/// Effects in the order in which they act: `()`, `((), A)`, `(((), A), B)` and so on.
+pub trait EffectList: Clone + Send + Sync + 'static {
+    /// What a contact remembers of them.
+    type Memory: Copy + Default + Send + Sync + PartialEq + Keep + Debug + 'static;
+    /// Whether one of them pushes across the normal.
+    const ACROSS: bool;
+    /// Whether one of them has a moment of its own.
+    const MOMENT: bool;
+    /// Whether one of them depends on the materials of the contact.
+    const BY_MATERIAL: bool;
+
+    /// See [`Effect::act`].
+    fn act(&self, contact: &mut Contact, memory: &mut Self::Memory, losses: &mut Losses);
+    /// Moment of all on the first body, N m.
+    fn moment(memory: &Self::Memory) -> Vector;
+    /// Energy stored by all, J.
+    fn stored(memory: &Self::Memory) -> f64;
+    /// See [`Effect::soften`].
+    fn soften(&mut self, factor: f64);
+}
+
+impl EffectList for () {
+    type Memory = ();
+    const ACROSS: bool = false;
+    const MOMENT: bool = false;
+    const BY_MATERIAL: bool = false;
+
+    #[inline(always)]
+    fn act(&self, _: &mut Contact, (): &mut (), _: &mut Losses) {}
+
+    #[inline(always)]
+    fn moment((): &()) -> Vector {
+        Vector::ZERO
+    }
+
+    #[inline(always)]
+    fn stored((): &()) -> f64 {
+        0.0
+    }
+
+    fn soften(&mut self, _: f64) {}
+}
+
+impl<L: EffectList, E: Effect> EffectList for (L, E) {
+    type Memory = (L::Memory, E::Memory);
+    const ACROSS: bool = L::ACROSS || E::ACROSS;
+    const MOMENT: bool = L::MOMENT || E::MOMENT;
+    const BY_MATERIAL: bool = L::BY_MATERIAL || E::BY_MATERIAL;
+
+    #[inline(always)]
+    fn act(&self, contact: &mut Contact, memory: &mut Self::Memory, losses: &mut Losses) {
+        self.0.act(contact, &mut memory.0, losses);
+        self.1.act(contact, &mut memory.1, losses);
+    }
+
+    #[inline(always)]
+    fn moment(memory: &Self::Memory) -> Vector {
+        match (L::MOMENT, E::MOMENT) {
+            (true, true) => L::moment(&memory.0) + E::moment(&memory.1),
+            (false, true) => E::moment(&memory.1),
+            (_, false) => L::moment(&memory.0),
+        }
+    }
+
+    #[inline(always)]
+    fn stored(memory: &Self::Memory) -> f64 {
+        L::stored(&memory.0) + E::stored(&memory.1)
+    }
+
+    fn soften(&mut self, factor: f64) {
+        self.0.soften(factor);
+        self.1.soften(factor);
+    }
+}
 
 /// Effects around a normal law, and their histories, in one.
 pub trait ContactLaw: Clone + Send + Sync + 'static {
@@ -35,17 +209,17 @@ pub trait ContactLaw: Clone + Send + Sync + 'static {
         memory: &mut Self::Memory,
     ) -> (Push, Losses);
 
-    /// Rolling moment on the first body, N m.
+    /// Moment on the first body beside that of the push, N m.
     fn moment(memory: &Self::Memory) -> Vector;
 
-    /// Energy in the springs, J.
-    fn springs(memory: &Self::Memory) -> f64;
+    /// Energy the effects store, J.
+    fn stored(memory: &Self::Memory) -> f64;
 
-    /// Work put into the normal law so far, J: what is not recoverable has gone into plastic flow.
-    fn work(memory: &Self::Memory) -> f64;
+    /// Energy (J) that plastic flow has dissipated here beside what the normal law's history tells.
+    fn flowed(memory: &Self::Memory) -> f64;
 
-    /// Books energy (J) that a change of the law itself, not motion, put into the contact.
-    fn book_work(memory: &mut Self::Memory, work: f64);
+    /// Books such energy (J), of a contact that is over or was there before the account began.
+    fn book_flow(memory: &mut Self::Memory, energy: f64);
 
     /// Contact stiffness over that of the material.
     fn softening(&self) -> f64;
@@ -54,46 +228,63 @@ pub trait ContactLaw: Clone + Send + Sync + 'static {
     fn soften(&mut self, factor: f64);
 }
 
-/// Damping `D`, tangential law `T` and rolling resistance `R` around any normal law; `()` is no effect, at no cost.
+/// The effects `L` around any normal law.
+///
+/// ```
+/// use impactlaw::dem::force::damping::Viscous;
+/// use impactlaw::dem::force::effects::Law;
+/// let smooth = Law::smooth();
+/// let damped = smooth.with(Viscous::new(0.8));
+/// ```
 #[derive(Debug, Clone, PartialEq)]
-pub struct Law<D = (), T = (), R = ()> {
-    damping: D,
-    tangential: T,
-    rolling: R,
+pub struct Law<L = ()> {
+    effects: L,
     /// Contact stiffness over that of the material.
     softening: f64,
 }
 
 /// What a contact of a [`Law`] remembers.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Memory<D, T, R> {
-    /// Force of the normal law alone, where damping acts beside it.
-    pub damping: D,
-    /// Tangential spring.
-    pub tangential: T,
-    /// Rolling spring.
-    pub rolling: R,
-    /// Work put into the normal law, J.
-    pub work: f64,
+pub struct Memory<M> {
+    /// Of its effects.
+    pub effects: M,
+    /// Energy plastic flow has dissipated beside what the history of the normal law tells, J.
+    pub flowed: f64,
+}
+keep_fields!(impl [M: Keep] Memory<M>: effects, flowed);
+
+impl Law {
+    /// No effects, at the material's full stiffness.
+    #[must_use]
+    pub fn smooth() -> Self {
+        Self::new(())
+    }
 }
 
-impl<D, T, R> Law<D, T, R> {
-    /// Effects as given, at the material's full stiffness.
+impl<L> Law<L> {
+    /// Effects as listed, at the material's full stiffness.
     #[must_use]
-    pub fn new(damping: D, tangential: T, rolling: R) -> Self {
+    pub fn new(effects: L) -> Self {
         Self {
-            damping,
-            tangential,
-            rolling,
+            effects,
             softening: 1.0,
+        }
+    }
+
+    /// The same with one effect more, which acts after the others; order: [`super::list`].
+    #[must_use]
+    pub fn with<E>(self, effect: E) -> Law<(L, E)> {
+        Law {
+            effects: (self.effects, effect),
+            softening: self.softening,
         }
     }
 }
 
-impl<D: Damping, T: Tangential, R: Rolling> ContactLaw for Law<D, T, R> {
-    type Memory = Memory<D::Memory, T::Memory, R::Memory>;
-    const ROTATES: bool = T::ACTIVE || R::ACTIVE;
-    const BY_MATERIAL: bool = D::BY_MATERIAL || T::BY_MATERIAL || R::BY_MATERIAL;
+impl<L: EffectList> ContactLaw for Law<L> {
+    type Memory = Memory<L::Memory>;
+    const ROTATES: bool = L::ACROSS || L::MOMENT;
+    const BY_MATERIAL: bool = L::BY_MATERIAL;
 
     #[inline(always)]
     fn push(
@@ -110,53 +301,30 @@ impl<D: Damping, T: Tangential, R: Rolling> ContactLaw for Law<D, T, R> {
             ..*pressed
         };
         let approach = -m.velocity.dot(m.normal);
-        let passing = m.velocity + m.normal * approach;
-        let mut normal_force = pressed.force;
-        self.damping
-            .add_to(&mut normal_force, approach, &pressed, m);
-
-        let arms = lever_arms(m, &pressed);
-        let mut tangential = Vector::ZERO;
+        let mut contact = Contact {
+            meeting,
+            pressed,
+            before,
+            approach,
+            passing: m.velocity + m.normal * approach,
+            arms: lever_arms(m, &pressed),
+            normal_force: pressed.force,
+            across: Vector::ZERO,
+            dashpot: 0.0,
+        };
         let mut losses = Losses::default();
-        let mut spring_work = 0.0;
-        let mut slip = Vector::ZERO;
-        if T::ACTIVE {
-            let turning = m.spins[0] * arms[0] + m.spins[1] * arms[1];
-            slip = passing - turning.cross(m.normal);
-            let pull =
-                self.tangential
-                    .pull(slip, normal_force, &pressed, m, &mut memory.tangential);
-            losses.friction = pull.loss;
-            spring_work = pull.work;
-            tangential = pull.force;
-            let limit = self.tangential.limit(normal_force, m);
-            self.damping
-                .add_slip_to(&mut tangential, slip, pull.stiffness, m, limit);
-        }
-        if R::ACTIVE {
-            losses.rolling = self
-                .rolling
-                .resist(normal_force, &pressed, m, &mut memory.rolling);
-        }
-        let past = Past::of(m, before, approach, passing);
-        let law_before = D::law_force(&memory.damping, past.normal_force);
-        let law_work = 0.5 * m.dt * (law_before * past.approach + pressed.force * approach);
-        memory.work += law_work;
-        if D::ACTIVE {
-            D::remember(&mut memory.damping, pressed.force);
-            let normal_work = past.normal_force * past.approach + normal_force * approach;
-            let spent = 0.5 * m.dt * (normal_work - (past.tangential + tangential).dot(slip));
-            losses.damping = spent - law_work - spring_work;
-        }
+        self.effects
+            .act(&mut contact, &mut memory.effects, &mut losses);
         if m.overlap <= 0.0 {
             return (Push::default(), losses);
         }
-        let force = m.normal * normal_force + tangential;
-        let couple = if T::ACTIVE {
+        let force = m.normal * contact.normal_force + contact.across;
+        let couple = if L::ACROSS {
             force.cross(m.normal)
         } else {
             Vector::ZERO
         };
+        let arms = contact.arms;
         (
             Push {
                 force,
@@ -169,19 +337,19 @@ impl<D: Damping, T: Tangential, R: Rolling> ContactLaw for Law<D, T, R> {
 
     #[inline(always)]
     fn moment(memory: &Self::Memory) -> Vector {
-        R::moment(&memory.rolling)
+        L::moment(&memory.effects)
     }
 
-    fn springs(memory: &Self::Memory) -> f64 {
-        T::energy(&memory.tangential) + R::energy(&memory.rolling)
+    fn stored(memory: &Self::Memory) -> f64 {
+        L::stored(&memory.effects)
     }
 
-    fn work(memory: &Self::Memory) -> f64 {
-        memory.work
+    fn flowed(memory: &Self::Memory) -> f64 {
+        memory.flowed
     }
 
-    fn book_work(memory: &mut Self::Memory, work: f64) {
-        memory.work += work;
+    fn book_flow(memory: &mut Self::Memory, energy: f64) {
+        memory.flowed += energy;
     }
 
     fn softening(&self) -> f64 {
@@ -190,30 +358,7 @@ impl<D: Damping, T: Tangential, R: Rolling> ContactLaw for Law<D, T, R> {
 
     fn soften(&mut self, factor: f64) {
         self.softening = factor;
-        self.tangential.soften(factor);
-        self.rolling.soften(factor);
-    }
-}
-
-/// The push of the step before, split along the normal it had then.
-struct Past {
-    normal_force: f64,
-    tangential: Vector,
-    /// Rate of approach of this step's motion along that normal.
-    approach: f64,
-}
-
-impl Past {
-    #[inline(always)]
-    fn of(m: &Meeting, before: &Push, approach: f64, passing: Vector) -> Self {
-        let turn = passing * (m.dt * m.inverse_distance);
-        let normal = m.normal - turn;
-        let normal_force = before.force.dot(normal);
-        Self {
-            normal_force,
-            tangential: before.force - normal * normal_force,
-            approach: approach + passing.dot(turn),
-        }
+        self.effects.soften(factor);
     }
 }
 

@@ -1,76 +1,11 @@
-//! Friction: springs that slide at a limit, for tangential force and rolling moment.
+//! Friction: a spring across the normal that slides at a limit.
 
+use super::effects::{Contact, Effect, Named};
+use super::losses::Losses;
 use super::meeting::Meeting;
 use super::slider::Slider;
-use crate::contact::pair::Pressed;
 use crate::material::Material;
-use crate::tape::Keep;
 use parry3d::math::Vector;
-use std::fmt::Debug;
-
-/// Result of a tangential law.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Pull {
-    /// Force of the spring on the first body, N.
-    pub force: Vector,
-    /// Stiffness of the spring, N/m.
-    pub stiffness: f64,
-    /// Work put into the spring, J.
-    pub work: f64,
-    /// Part of it dissipated, J.
-    pub loss: f64,
-}
-
-/// Tangential force of a contact; `()` is a frictionless one.
-pub trait Tangential: Clone + Send + Sync + 'static {
-    /// What is remembered.
-    type Memory: Copy + Default + Send + Sync + PartialEq + Keep + Debug;
-    /// Whether there is a tangential force.
-    const ACTIVE: bool;
-    /// Whether it depends on the materials of the contact.
-    const BY_MATERIAL: bool = false;
-
-    /// Force against `slip` (m/s) under the normal `force` (N).
-    fn pull(
-        &self,
-        slip: Vector,
-        force: f64,
-        pressed: &Pressed,
-        meeting: &Meeting,
-        memory: &mut Self::Memory,
-    ) -> Pull;
-
-    /// Largest tangential force (N) under the normal `force` (N).
-    fn limit(&self, force: f64, meeting: &Meeting) -> f64;
-
-    /// Makes the spring `factor` times as stiff as the material says.
-    fn soften(&mut self, factor: f64);
-
-    /// Energy held, J.
-    fn energy(memory: &Self::Memory) -> f64;
-}
-
-impl Tangential for () {
-    type Memory = ();
-    const ACTIVE: bool = false;
-
-    #[inline(always)]
-    fn pull(&self, _: Vector, _: f64, _: &Pressed, _: &Meeting, (): &mut ()) -> Pull {
-        Pull::default()
-    }
-
-    #[inline(always)]
-    fn limit(&self, _: f64, _: &Meeting) -> f64 {
-        0.0
-    }
-
-    fn soften(&mut self, _: f64) {}
-
-    #[inline(always)]
-    fn energy((): &()) -> f64 {
-        0.0
-    }
-}
 
 /// Mindlin's no-slip stiffness with Coulomb's limit.
 ///
@@ -139,49 +74,66 @@ fn shear_stiffness(sides: [Option<&Material>; 2]) -> f64 {
     }
 }
 
-impl Tangential for Mindlin {
-    type Memory = Slider;
-    const ACTIVE: bool = true;
+impl Named for Mindlin {
+    const MUST: &'static str = "must be positive";
+    const WITHOUT: &'static str = "smooth grains";
+    const NEEDS: Option<(&'static str, &'static str)> = None;
 
+    fn allows(friction: f64) -> bool {
+        friction > 0.0
+    }
+
+    fn of(friction: f64, material: &Material) -> Self {
+        Self::new(material, friction)
+    }
+
+    fn between(friction: f64, materials: [Option<&Material>; 2]) -> Self {
+        Self::between(materials, friction)
+    }
+}
+
+impl Effect for Mindlin {
+    type Memory = Slider;
+    const ACROSS: bool = true;
+    const MOMENT: bool = false;
+
+    /// A dashpot named beside friction damps the spring too, up to Coulomb's limit.
     #[inline(always)]
-    fn pull(
-        &self,
-        slip: Vector,
-        force: f64,
-        pressed: &Pressed,
-        meeting: &Meeting,
-        memory: &mut Slider,
-    ) -> Pull {
-        let stiffness = if force > 0.0 {
-            self.stiffness(pressed.contact_radius, meeting)
+    fn act(&self, contact: &mut Contact, spring: &mut Slider, losses: &mut Losses) {
+        let m = contact.meeting;
+        let slip = contact.slip();
+        let stiffness = if contact.normal_force > 0.0 {
+            self.stiffness(contact.pressed.contact_radius, m)
         } else {
             0.0
         };
-        let slide = memory.advance(
-            slip * meeting.dt,
-            meeting.normal,
-            stiffness,
-            self.friction * force,
-        );
-        Pull {
-            force: memory.load,
-            stiffness,
-            work: slide.work,
-            loss: slide.loss,
+        let limit = self.friction * contact.normal_force;
+        let slide = spring.advance(slip * m.dt, m.normal, stiffness, limit);
+        losses.friction += slide.loss;
+        let mut force = spring.load;
+        if contact.dashpot > 0.0 {
+            force -= slip * (contact.dashpot * (m.mass * stiffness).sqrt());
+            let size = force.length_squared();
+            if size > limit * limit {
+                force *= limit / size.sqrt();
+            }
+            let spent = -0.5 * m.dt * (contact.past().across + force).dot(slip);
+            losses.damping += spent - slide.work;
         }
+        contact.across += force;
     }
 
     #[inline(always)]
-    fn limit(&self, force: f64, _: &Meeting) -> f64 {
-        self.friction * force
+    fn moment(_: &Slider) -> Vector {
+        Vector::ZERO
+    }
+
+    #[inline(always)]
+    fn stored(spring: &Slider) -> f64 {
+        spring.energy()
     }
 
     fn soften(&mut self, factor: f64) {
         self.factor = factor;
-    }
-
-    #[inline(always)]
-    fn energy(memory: &Slider) -> f64 {
-        memory.energy()
     }
 }

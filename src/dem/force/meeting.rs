@@ -1,4 +1,4 @@
-//! Meeting of two bodies, what a contact does to them, and the energy it dissipates.
+//! Meeting of two bodies, and what a contact does to them.
 
 use parry3d::math::Vector;
 
@@ -22,7 +22,7 @@ pub struct Meeting {
     /// Time step, s.
     pub dt: f64,
     /// Materials, as indices; [`super::mixture::RIGID`] for a body without one. Told only to laws that ask
-    /// ([`ContactLaw::BY_MATERIAL`]).
+    /// ([`super::effects::ContactLaw::BY_MATERIAL`]).
     pub materials: [u8; 2],
 }
 
@@ -60,25 +60,5 @@ impl Push {
     #[must_use]
     pub fn touches(&self) -> bool {
         self.arms[0] > 0.0
-    }
-}
-
-/// Energy dissipated by the effects of a law, J. The plastic share is booked by contact, in its memory.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Losses {
-    /// Sliding, and slip released when a tangential spring softens.
-    pub friction: f64,
-    /// Rolling resistance.
-    pub rolling: f64,
-    /// Viscous damping.
-    pub damping: f64,
-}
-
-impl std::ops::AddAssign for Losses {
-    #[inline(always)]
-    fn add_assign(&mut self, other: Self) {
-        self.friction += other.friction;
-        self.rolling += other.rolling;
-        self.damping += other.damping;
     }
 }

@@ -183,15 +183,22 @@ impl Chunk {
         let mut remember = |(kind, side, flattening, radius): (usize, usize, f64, f64)| {
             self.flattened[kind].remember(side, flattening, radius)
         };
-        let mut radius = remember(first);
-        if matches!(bodies, Bodies::Unlike) {
-            radius = 0.5 * (radius + remember(second));
+        let [mut radius, mut depth] = remember(first);
+        match bodies {
+            Bodies::OnRigid => {}
+            Bodies::Alike => depth *= 2.0,
+            Bodies::Unlike => {
+                let other = remember(second);
+                radius = 0.5 * (radius + other[0]);
+                depth += other[1];
+            }
         }
         Pressed {
             force: state.force,
             stiffness: state.stiffness,
             contact_radius: radius,
             flattening: [first.2, second.2],
+            depth,
         }
     }
 
@@ -295,6 +302,18 @@ impl Histories for Chunk {
         self.flattening(at, &squeeze)
             .map(|(count, (kind, side, flattening, radius))| {
                 count * self.flattened[kind].elastic_energy(side, flattening, radius)
+            })
+            .sum()
+    }
+
+    fn dissipated(&self, at: usize, radii: [f64; 2]) -> f64 {
+        let apart = Squeeze {
+            overlap: 0.0,
+            radii,
+        };
+        self.flattening(at, &apart)
+            .map(|(count, (kind, side, _, radius))| {
+                count * self.flattened[kind].dissipated(side, radius)
             })
             .sum()
     }

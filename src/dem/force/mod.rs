@@ -4,6 +4,8 @@ pub mod by_material;
 pub mod damping;
 pub mod effects;
 pub mod friction;
+pub mod list;
+pub mod losses;
 pub mod meeting;
 pub mod mixture;
 pub mod named;

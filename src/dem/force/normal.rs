@@ -36,6 +36,9 @@ pub trait Histories: Send + Sync {
     /// Recoverable energy, J, of the law at full stiffness.
     fn elastic_energy(&self, at: usize, squeeze: Squeeze) -> f64;
 
+    /// Energy (J) plastic flow has dissipated in a contact of `radii` (m), of the law at full stiffness.
+    fn dissipated(&self, at: usize, radii: [f64; 2]) -> f64;
+
     /// Largest stiffness (N/m) the contact can show now, loading or unloading.
     fn stiffest(&self, at: usize, squeeze: Squeeze) -> f64;
 
@@ -139,6 +142,10 @@ impl<P: Press> Histories for Chunk<P> {
     fn elastic_energy(&self, at: usize, squeeze: Squeeze) -> f64 {
         self.law
             .elastic_energy(squeeze.overlap, squeeze.radii, &self.histories[at])
+    }
+
+    fn dissipated(&self, at: usize, radii: [f64; 2]) -> f64 {
+        self.law.dissipated(radii, &self.histories[at])
     }
 
     fn stiffest(&self, at: usize, squeeze: Squeeze) -> f64 {

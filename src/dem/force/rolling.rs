@@ -1,63 +1,11 @@
 //! Rolling resistance of a contact.
 
-use super::friction::{Mindlin, Tangential};
-use super::meeting::Meeting;
+use super::effects::{Contact, Effect, Named};
+use super::friction::Mindlin;
+use super::losses::Losses;
 use super::slider::Slider;
-use crate::contact::pair::Pressed;
 use crate::material::Material;
-use crate::tape::Keep;
 use parry3d::math::Vector;
-use std::fmt::Debug;
-
-/// Resistance of a contact to rolling; `()` is none.
-pub trait Rolling: Clone + Send + Sync + 'static {
-    /// What is remembered.
-    type Memory: Copy + Default + Send + Sync + PartialEq + Keep + Debug;
-    /// Whether there is a moment.
-    const ACTIVE: bool;
-    /// Whether it depends on the materials of the contact.
-    const BY_MATERIAL: bool = false;
-
-    /// Updates the moment under the normal `force` (N); returns the energy dissipated, J.
-    fn resist(
-        &self,
-        force: f64,
-        pressed: &Pressed,
-        meeting: &Meeting,
-        memory: &mut Self::Memory,
-    ) -> f64;
-
-    /// Moment on the first body, N m.
-    fn moment(memory: &Self::Memory) -> Vector;
-
-    /// Energy held, J.
-    fn energy(memory: &Self::Memory) -> f64;
-
-    /// Makes the spring `factor` times as stiff as the material says.
-    fn soften(&mut self, factor: f64);
-}
-
-impl Rolling for () {
-    type Memory = ();
-    const ACTIVE: bool = false;
-
-    #[inline(always)]
-    fn resist(&self, _: f64, _: &Pressed, _: &Meeting, (): &mut ()) -> f64 {
-        0.0
-    }
-
-    #[inline(always)]
-    fn moment((): &()) -> Vector {
-        Vector::ZERO
-    }
-
-    fn soften(&mut self, _: f64) {}
-
-    #[inline(always)]
-    fn energy((): &()) -> f64 {
-        0.0
-    }
-}
 
 /// Elastic-plastic rolling spring.
 ///
@@ -92,38 +40,54 @@ impl RollingSpring {
     }
 }
 
-impl Rolling for RollingSpring {
+impl Named for RollingSpring {
+    const MUST: &'static str = "must be positive";
+    const WITHOUT: &'static str = "free rolling";
+    const NEEDS: Option<(&'static str, &'static str)> =
+        Some(("friction", "smooth grains do not roll"));
+
+    fn allows(resistance: f64) -> bool {
+        resistance > 0.0
+    }
+
+    fn of(resistance: f64, material: &Material) -> Self {
+        Self::new(material, resistance)
+    }
+
+    fn between(resistance: f64, materials: [Option<&Material>; 2]) -> Self {
+        Self::between(materials, resistance)
+    }
+}
+
+impl Effect for RollingSpring {
     type Memory = Slider;
-    const ACTIVE: bool = true;
+    const ACROSS: bool = false;
+    const MOMENT: bool = true;
 
     #[inline(always)]
-    fn resist(&self, force: f64, pressed: &Pressed, meeting: &Meeting, memory: &mut Slider) -> f64 {
-        let radius = meeting.effective_radius();
-        let relative = meeting.spins[0] - meeting.spins[1];
-        let rolling = relative - meeting.normal * relative.dot(meeting.normal);
+    fn act(&self, contact: &mut Contact, spring: &mut Slider, losses: &mut Losses) {
+        let (m, force) = (contact.meeting, contact.normal_force);
+        let radius = m.effective_radius();
+        let relative = m.spins[0] - m.spins[1];
+        let rolling = relative - m.normal * relative.dot(m.normal);
         let stiffness = if force > 0.0 {
-            self.shear.stiffness(pressed.contact_radius, meeting) * radius * radius
+            self.shear.stiffness(contact.pressed.contact_radius, m) * radius * radius
         } else {
             0.0
         };
-        memory
-            .advance(
-                rolling * meeting.dt,
-                meeting.normal,
-                stiffness,
-                self.resistance * radius * force,
-            )
-            .loss
+        let limit = self.resistance * radius * force;
+        let slide = spring.advance(rolling * m.dt, m.normal, stiffness, limit);
+        losses.rolling += slide.loss;
     }
 
     #[inline(always)]
-    fn moment(memory: &Slider) -> Vector {
-        memory.load
+    fn moment(spring: &Slider) -> Vector {
+        spring.load
     }
 
     #[inline(always)]
-    fn energy(memory: &Slider) -> f64 {
-        memory.energy()
+    fn stored(spring: &Slider) -> f64 {
+        spring.energy()
     }
 
     fn soften(&mut self, factor: f64) {

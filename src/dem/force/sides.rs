@@ -13,8 +13,8 @@ pub(in crate::dem) trait Flattened: Send + Sync {
     fn add(&mut self, old: Option<(&dyn Flattened, usize)>) -> usize;
     /// State of a side at `flattening` of a sphere of `radius` (m), without remembering it.
     fn trial(&self, side: usize, flattening: f64, radius: f64) -> Side;
-    /// As [`Flattened::trial`], remembered; returns the contact radius (m).
-    fn remember(&mut self, side: usize, flattening: f64, radius: f64) -> f64;
+    /// As [`Flattened::trial`], remembered; returns contact radius and depth (m).
+    fn remember(&mut self, side: usize, flattening: f64, radius: f64) -> [f64; 2];
     /// Begins a side anew.
     fn forget(&mut self, side: usize);
     /// Takes a side's history away, as if to forget it.
@@ -23,6 +23,8 @@ pub(in crate::dem) trait Flattened: Send + Sync {
     fn put(&mut self, side: usize, history: &dyn Any);
     /// Recoverable energy, J.
     fn elastic_energy(&self, side: usize, flattening: f64, radius: f64) -> f64;
+    /// Energy plastic flow has dissipated, J.
+    fn dissipated(&self, side: usize, radius: f64) -> f64;
     /// Largest flattening (m) so far, where the law remembers it.
     fn largest(&self, side: usize, radius: f64) -> Option<f64>;
     /// Largest flattening over radius the law's source supports.
@@ -75,11 +77,11 @@ impl<L: NormalLaw> Flattened for Sides<L> {
         }
     }
 
-    fn remember(&mut self, side: usize, flattening: f64, radius: f64) -> f64 {
+    fn remember(&mut self, side: usize, flattening: f64, radius: f64) -> [f64; 2] {
         let state = self
             .law
             .state(flattening / radius, &mut self.histories[side]);
-        radius * state.contact_radius
+        [radius * state.contact_radius, radius * state.depth]
     }
 
     fn forget(&mut self, side: usize) {
@@ -101,6 +103,10 @@ impl<L: NormalLaw> Flattened for Sides<L> {
             * self
                 .law
                 .elastic_energy(flattening / radius, &self.histories[side])
+    }
+
+    fn dissipated(&self, side: usize, radius: f64) -> f64 {
+        radius.powi(3) * self.law.dissipated(&self.histories[side])
     }
 
     fn largest(&self, side: usize, radius: f64) -> Option<f64> {

@@ -4,8 +4,10 @@
  * and moments act on the first. The velocities are those half a step before the positions, as a leapfrog or velocity
  * Verlet scheme has them when forces are due.
  *
- * damping   F_d = 2 sqrt(5/6) beta sqrt(m k) v, beta = -ln e / sqrt(pi^2 + ln^2 e), k = dF/d(overlap) of the law,
- *           m the effective mass; the sum with the law's force never pulls. The same on the tangential spring.
+ * damping   F_d = 2 zeta sqrt(m (k + F/z)/2) v, k = dF/d(overlap) and F/z tangent and secant stiffness of the law (z: the
+ *           overlap since its force was zero), m the effective mass; the sum with the law's force never pulls. With
+ *           -ln e = 2 zeta arccos(zeta)/sqrt(1 - zeta^2) an elastic contact has the restitution e at every speed; a law that
+ *           yields loses more. On the tangential spring 2 sqrt(5/6) min(zeta, 1) sqrt(m k_t).
  * friction  Mindlin's spring k_t = 8 G/(2 - nu)/s a (s = 1 on a rigid surface, 2 between grains of the law's material;
  *           a: contact radius) that slides at mu F. While the stiffness grows the load stays, while it falls the load
  *           falls with it: a spring that kept its stretch would give back more than it was given.
@@ -20,7 +22,7 @@
 /* 8 G/(2 - nu) of the law's material, Pa. */
 #define LAW_SHEAR @SHEAR@
 
-/* Effects beside the normal law; 0: there is none. damping: 2 sqrt(5/6) beta. */
+/* Effects beside the normal law; 0: there is none. damping: the ratio zeta. */
 typedef struct {
     double friction, rolling, damping;
 } law_effects;
@@ -59,11 +61,52 @@ static inline void law_cross(const double *a, const double *b, double *c)
     c[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-/* 2 sqrt(5/6) beta of a nominal restitution e in (0, 1]. */
+/* -ln e of an impact with the damping ratio zeta. */
+static inline double law_decrement(double ratio)
+{
+    const double root = sqrt(fabs((1.0 - ratio) * (1.0 + ratio)));
+    if (root == 0.0) return 2.0;
+    return 2.0 * ratio * (ratio < 1.0 ? acos(ratio) : acosh(ratio)) / root;
+}
+
+/* The damping ratio zeta of a restitution e in (0, 1]; by bisection, so once, not in a loop over contacts. */
 static inline double law_dashpot(double restitution)
 {
-    const double log_e = log(restitution), pi = 3.14159265358979323846;
-    return 2.0 * sqrt(5.0 / 6.0) * -log_e / sqrt(pi * pi + log_e * log_e);
+    const double asked = -log(restitution);
+    double low = 0.0, high = 1.0 + exp(0.5 * asked);
+    int k;
+    if (restitution >= 1.0) return 0.0;
+    for (k = 0; k < 100; k++) {
+        const double middle = 0.5 * (low + high);
+        if (middle <= low || middle >= high) break;
+        if (law_decrement(middle) < asked) low = middle;
+        else high = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+/* Viscosity (N s/m) of the normal dashpot. */
+static inline double law_viscosity(double damping, const law_pressed *p, double mass)
+{
+    return sqrt(2.0) * damping * sqrt(mass * (p->stiffness + p->force / p->depth));
+}
+
+/* What the dashpot is multiplied by in the step in which the force sets in, 1 in all others; `travel` is the approach of a step.
+   The dashpot grows like t^p from the first touch, p = (dlnF/dlnz - 1)/2: with the part s of the step past, its impulse up to
+   half a step later is (s + 1/2)^(p+1)/(p+1) of what the force is multiplied with, not s^p. */
+static inline double law_onset(const law_pressed *p, double travel)
+{
+    double past, power;
+    if (p->depth > travel) return 1.0;
+    past = p->depth / travel;
+    power = 0.5 * (p->stiffness * p->depth / p->force + 1.0);
+    return pow(past + 0.5, power) / (power * pow(past, power - 1.0));
+}
+
+/* Viscosity (N s/m) of the dashpot on a tangential spring. */
+static inline double law_rubbing_viscosity(double damping, double stiffness, double mass)
+{
+    return 2.0 * sqrt(5.0 / 6.0) * (damping < 1.0 ? damping : 1.0) * sqrt(mass * stiffness);
 }
 
 /* Advances a spring by `stretch` in the plane of `normal`, with the present stiffness, up to `limit`. */
@@ -85,12 +128,14 @@ static inline void law_slide(law_slider *s, const double *stretch, const double 
     s->stiffness = stiffness;
 }
 
-/* Normal force of the law with damping; `approach` is the rate of the overlap. */
-static inline double law_damped(const law_effects *e, const law_pressed *p, double approach, double mass)
+/* Normal force of the law with damping; `approach` is the rate of the overlap half a step before, the dashpot acts on that
+   of the whole step, which its own force and the law's change. */
+static inline double law_damped(const law_effects *e, const law_pressed *p, double approach, double mass, double dt)
 {
     double force = p->force;
     if (force > 0.0 && e->damping > 0.0) {
-        force += e->damping * sqrt(mass * p->stiffness) * approach;
+        const double viscous = law_viscosity(e->damping, p, mass) * law_onset(p, approach * dt);
+        force = (force + viscous * approach) * (2.0 * mass) / (2.0 * mass + dt * viscous);
         if (force < 0.0) force = 0.0;
     }
     return force;
@@ -107,7 +152,7 @@ static inline void law_rub(const law_effects *e, const law_meeting *m, const dou
                               double normal_force, law_slider *spring, double *force)
 {
     const double limit = e->friction * normal_force;
-    const double viscous = e->damping > 0.0 ? e->damping * sqrt(m->mass * stiffness) : 0.0;
+    const double viscous = law_rubbing_viscosity(e->damping, stiffness, m->mass);
     double stretch[3], size;
     int k;
     for (k = 0; k < 3; k++) stretch[k] = slip[k] * m->dt;
@@ -135,7 +180,7 @@ static inline law_push law_meet(const law_effects *e, const law_meeting *m, cons
 {
     const int on_surface = m->radii[1] <= 0.0;
     const double arms[2] = {m->radii[0] - p->flattening[0], on_surface ? 0.0 : m->radii[1] - p->flattening[1]};
-    const double normal_force = law_damped(e, p, -law_dot(m->velocity, m->normal), m->mass);
+    const double normal_force = law_damped(e, p, -law_dot(m->velocity, m->normal), m->mass, m->dt);
     const double stiffness = law_shear(p, normal_force, on_surface);
     law_push push;
     double slip[3], couple[3];

@@ -1,7 +1,7 @@
 /* A body of the given radius on a rigid surface, overlap > 0 in contact. All flattening is the body's. */
 LAW_FUNCTION law_pressed law_wall(double overlap, double radius, law_side *side)
 {
-    law_pressed p = {0.0, 0.0, 0.0, {0.0, 0.0}};
+    law_pressed p = {0.0, 0.0, 0.0, {0.0, 0.0}, 0.0};
     double x = overlap / radius, slope;
     if (!(overlap > 0.0))
         return p;
@@ -9,6 +9,7 @@ LAW_FUNCTION law_pressed law_wall(double overlap, double radius, law_side *side)
     p.stiffness = radius * slope;
     p.contact_radius = radius * sqrt(x);
     p.flattening[0] = overlap;
+    p.depth = law_depth(overlap, radius, side);
     return p;
 }
 
@@ -27,6 +28,7 @@ LAW_FUNCTION law_pressed law_pair(double overlap, double radius_1, double radius
     law_pressed p = law_wall(0.5 * overlap, law_side_radius(radius_1, radius_2), side_1);
     p.stiffness *= 0.5;
     p.flattening[1] = p.flattening[0];
+    p.depth *= 2.0;
     *side_2 = *side_1;
     *share = overlap > 0.0 ? 0.5 : 0.0;
     return p;

@@ -34,7 +34,7 @@ static int law_run_impact(int number)
     const int steps = 200000; /* of the contact time */
     const double dt = hit->contact_time / steps, sides = hit->radius_2 > 0.0 ? 2.0 : 1.0;
     law_side side_1, side_2;
-    law_pressed p = {0.0, 0.0, 0.0, {0.0, 0.0}};
+    law_pressed p = {0.0, 0.0, 0.0, {0.0, 0.0}, 0.0};
     double x = 0.0, v = hit->velocity, share = 0.0, most = 0.0, strongest = 0.0, last = 0.0, worst = 0.0;
     size_t next = 0, points = number < 2 ? sizeof law_trajectory / sizeof law_trajectory[0] : 0;
     int step, misses = 0;

@@ -80,7 +80,7 @@ FIRST_FUNCTION double law_balance(double overlap, const double *radii, const law
    through both, their flattenings adding up to the overlap. radius_2 0: a flat surface of the second material. */
 FIRST_FUNCTION first_pressed law_press(double overlap, double radius_1, double radius_2, law_sides *sides)
 {
-    first_pressed p = {0.0, 0.0, 0.0, {0.0, 0.0}};
+    first_pressed p = {0.0, 0.0, 0.0, {0.0, 0.0}, 0.0};
     double radii[2], force[2], stiffness[2], both, slope;
     if (!(overlap > 0.0))
         return p;
@@ -100,6 +100,7 @@ FIRST_FUNCTION first_pressed law_press(double overlap, double radius_1, double r
     } else {
         p.force = 0.5 * (force[0] + force[1]);
     }
+    p.depth = first_depth(p.flattening[0], radii[0], &sides->first) + second_depth(p.flattening[1], radii[1], &sides->second);
     p.contact_radius = 0.5 * (sqrt(radii[0] * p.flattening[0]) + sqrt(radii[1] * p.flattening[1]));
     return p;
 }

@@ -59,8 +59,8 @@ int main(int argc, char **argv)
         law_pressed p = press(overlaps[i], radii, sides, &share);
         double energy = radii[1] > 0.0 ? law_pair_elastic_energy(overlaps[i], radii[0], radii[1], &sides[0])
                                        : law_elastic_energy(overlaps[i], radii[0], &sides[0]);
-        printf("%.17g %.17g %.17g %.17g %.17g %.17g\n", p.force, p.stiffness, p.contact_radius, p.flattening[0],
-               p.flattening[1], energy);
+        printf("%.17g %.17g %.17g %.17g %.17g %.17g %.17g\n", p.force, p.stiffness, p.contact_radius, p.flattening[0],
+               p.flattening[1], p.depth, energy);
     }
     start = seconds();
     for (round = 0; round < rounds; round++)

@@ -117,13 +117,21 @@ impl Driver {
     }
 }
 
-/// What a driver prints of a step: force, stiffness, contact radius, both flattenings, recoverable energy.
-pub(super) type Row = [f64; 6];
+/// What a driver prints of a step: force, stiffness, contact radius, both flattenings, depth, recoverable energy.
+pub(super) type Row = [f64; 7];
 
 /// The row of a pressed contact and its recoverable energy.
 pub(super) fn row((p, energy): &(Pressed, f64)) -> Row {
     let [a, b] = p.flattening;
-    [p.force, p.stiffness, p.contact_radius, a, b, *energy]
+    [
+        p.force,
+        p.stiffness,
+        p.contact_radius,
+        a,
+        b,
+        p.depth,
+        *energy,
+    ]
 }
 
 fn off(ours: f64, theirs: f64, scale: f64) -> f64 {

@@ -58,7 +58,9 @@ pub fn random(most: f64, steps: usize, seed: u64) -> Vec<f64> {
 
 /// What is compared along a random path.
 pub(super) fn subject(bodies: &str, steps: usize) -> String {
-    format!("random paths, {bodies}, {steps} steps: force, stiffness, radius, flattening, energy")
+    format!(
+        "random paths, {bodies}, {steps} steps: force, stiffness, radius, flattening, depth, energy"
+    )
 }
 
 /// What `law` says along a path, and its recoverable energy (J); the contact is forgotten where the overlap is 0.

@@ -83,11 +83,11 @@ fn pressed(laws: [&Portable; 2], radii: [f64; 2], path: &[f64]) -> Result<Vec<Ro
 /// The largest each number has been since the bodies touched. How two sides share an overlap is the result of a search: where
 /// contact is nearly lost, rounding of the overlap is any part of the little force that is left.
 fn largest_so_far(rows: &[Row], path: &[f64]) -> Vec<Row> {
-    let mut most = [0.0f64; 6];
+    let mut most = [0.0f64; 7];
     let mut scales = Vec::new();
     for (row, &overlap) in rows.iter().zip(path) {
         if overlap <= 0.0 {
-            most = [0.0; 6];
+            most = [0.0; 7];
         }
         for (most, number) in most.iter_mut().zip(row) {
             *most = most.max(*number);

@@ -16,8 +16,8 @@ int main(void)
             law_forget(&sides);
         p = law_press(overlap, radii[0], radii[1], &sides);
         energy = overlap > 0.0 ? law_elastic_energy(overlap, radii[0], radii[1], &sides) : 0.0;
-        printf("%.17g %.17g %.17g %.17g %.17g %.17g\n", p.force, p.stiffness, p.contact_radius, p.flattening[0],
-               p.flattening[1], energy);
+        printf("%.17g %.17g %.17g %.17g %.17g %.17g %.17g\n", p.force, p.stiffness, p.contact_radius, p.flattening[0],
+               p.flattening[1], p.depth, energy);
     }
     return 0;
 }

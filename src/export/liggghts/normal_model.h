@@ -6,7 +6,7 @@
  *   kn      secant stiffness F/overlap,
  *   kt      8 G/(2 - nu)/s times the contact radius (s = 1 on a wall, 2 between grains),
  *   gammat  viscous coefficient of the tangential spring.
- * Settings:  damping on|off (off)   viscous part with the nominal restitution of coefficientRestitution
+ * Settings:  damping on|off (off)   viscous part with the restitution of coefficientRestitution
  *            tangential_damping on|off (on)   the same on the tangential spring
  * History:   per side x_max, phi_max, x_res, n of the law (see @NAME@.h), sides in the order of the grains' numbers; forgotten
  *            when the undeformed spheres part.
@@ -36,6 +36,8 @@ namespace ContactModels
     NormalModel(LAMMPS *lmp, IContactHistorySetup *hsetup, class ContactModelBase *c) :
       NormalModelBase(lmp, hsetup, c),
       beta(NULL),
+      last_beta(0.0),
+      last_ratio(0.0),
       damping(false),
       tangential_damping(true)
     {
@@ -84,8 +86,8 @@ namespace ContactModels
       if (sidata.contact_flags) *sidata.contact_flags |= CONTACT_NORMAL_MODEL;
       const law_pressed p = press(sidata);
       law_effects effects = {0.0, 0.0, 0.0};
-      if (damping) effects.damping = -1.8257418583505538 * beta[sidata.itype][sidata.jtype]; // 2 sqrt(5/6)
-      const double Fn = law_damped(&effects, &p, -sidata.vn, sidata.meff);
+      if (damping) effects.damping = ratio(beta[sidata.itype][sidata.jtype]);
+      const double Fn = law_damped(&effects, &p, -sidata.vn, sidata.meff, update->dt);
 
       // Lever arms to the point of contact; a wall does not flatten.
       sidata.cri = sidata.radi - p.flattening[0];
@@ -93,8 +95,8 @@ namespace ContactModels
       sidata.Fn = Fn;
       sidata.kn = p.force / sidata.deltan;
       sidata.kt = law_shear(&p, p.force, sidata.is_wall);
-      sidata.gamman = effects.damping * sqrt(sidata.meff * p.stiffness);
-      sidata.gammat = tangential_damping ? effects.damping * sqrt(sidata.meff * sidata.kt) : 0.0;
+      sidata.gamman = p.force > 0.0 ? law_viscosity(effects.damping, &p, sidata.meff) : 0.0;
+      sidata.gammat = tangential_damping ? law_rubbing_viscosity(effects.damping, sidata.kt, sidata.meff) : 0.0;
 
       const double share = sidata.is_wall ? sidata.area_ratio : 1.0;
       for (int k = 0; k < 3; k++) {
@@ -114,7 +116,18 @@ namespace ContactModels
     void endPass(SurfacesIntersectData &, ForceData &, ForceData &) {}
 
   private:
+    // The damping ratio of a pair of types: LIGGGHTS tells beta = ln e/sqrt(pi^2 + ln^2 e); solved for where it changes.
+    double ratio(double beta)
+    {
+      if (beta != last_beta) {
+        last_beta = beta;
+        last_ratio = law_dashpot(exp(M_PI * beta / sqrt(1.0 - beta * beta)));
+      }
+      return last_ratio;
+    }
+
     double **beta;
+    double last_beta, last_ratio;
     bool damping, tangential_damping;
     int history_offset, history_size;
 

@@ -31,7 +31,7 @@ public:
     {
         setRelativeVelocity(getP()->getVelocityAtContact(getContactPoint()) - getI()->getVelocityAtContact(getContactPoint()));
         setNormalRelativeVelocity(Vec3D::dot(getRelativeVelocity(), getNormal()));
-        law_pressed pressed = {0.0, 0.0, 0.0, {0.0, 0.0}};
+        law_pressed pressed = {0.0, 0.0, 0.0, {0.0, 0.0}, 0.0};
         if (getOverlap() > 0.0)
             pressed = press();
         else

@@ -60,6 +60,22 @@ impl NormalLaw for Eepa {
         }
     }
 
+    fn depth(&self, x: f64, most: &f64) -> f64 {
+        if x >= *most {
+            return x.max(0.0);
+        }
+        let peak = most.powf(self.exponent) * (1.0 - 1.0 / self.ratio);
+        (x - peak.max(0.0).powf(1.0 / self.exponent)).max(0.0)
+    }
+
+    fn dissipated(&self, most: &f64) -> f64 {
+        if self.ratio == 1.0 {
+            return 0.0;
+        }
+        let n_1 = self.exponent + 1.0;
+        self.loading * most.powf(n_1) / n_1 - self.elastic_energy(*most, most)
+    }
+
     fn elastic_energy(&self, x: f64, most: &f64) -> f64 {
         let force = self.force(x, &mut most.clone());
         if force <= 0.0 {

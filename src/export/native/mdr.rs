@@ -29,6 +29,9 @@ pub struct Mdr {
 /// Fixed-point steps to the flattening at yield; each gains two digits and more.
 const YIELD_STEPS: usize = 40;
 
+/// Halvings to the flattening at which contact is lost.
+const HALVINGS: usize = 60;
+
 /// What an MDR contact remembers.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Indent {
@@ -101,6 +104,15 @@ impl Mdr {
     }
 }
 
+/// Area under a force up to `x`, by the trapezoidal rule.
+fn area(x: f64, force: impl Fn(f64) -> f64) -> f64 {
+    const PANELS: u32 = 400;
+    let width = x.max(0.0) / f64::from(PANELS);
+    let at = |k: u32| force(width * f64::from(k));
+    let inner: f64 = (1..PANELS).map(at).sum();
+    width * (inner + 0.5 * (at(0) + at(PANELS)))
+}
+
 impl NormalLaw for Mdr {
     type History = Indent;
 
@@ -128,13 +140,33 @@ impl NormalLaw for Mdr {
         (self.force(to, &mut indent.clone()) - self.force(from, &mut indent.clone())) / step
     }
 
-    /// By the trapezoidal rule over the branch.
+    /// By bisection for where the force is lost.
+    fn depth(&self, x: f64, indent: &Indent) -> f64 {
+        let (mut lost, mut held) = (0.0, x.max(0.0));
+        if x >= indent.most {
+            return held;
+        }
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (lost + held);
+            if self.at(middle, indent) > 0.0 {
+                held = middle;
+            } else {
+                lost = middle;
+            }
+        }
+        x.max(0.0) - lost
+    }
+
     fn elastic_energy(&self, x: f64, indent: &Indent) -> f64 {
-        const PANELS: u32 = 400;
-        let width = x.max(0.0) / f64::from(PANELS);
-        let force = |k: u32| self.at(width * f64::from(k), indent);
-        let inner: f64 = (1..PANELS).map(force).sum();
-        width * (inner + 0.5 * (force(0) + force(PANELS)))
+        area(x, |x| self.at(x, indent))
+    }
+
+    fn dissipated(&self, indent: &Indent) -> f64 {
+        if indent.yielded == 0.0 {
+            return 0.0;
+        }
+        let loading = area(indent.most, |x| self.force(x, &mut Indent::default()));
+        loading - self.elastic_energy(indent.most, indent)
     }
 
     fn contact_radius(&self, _: f64, _: &Indent) -> Option<f64> {

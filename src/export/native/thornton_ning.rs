@@ -60,6 +60,26 @@ impl NormalLaw for ThorntonNing {
             }
     }
 
+    fn depth(&self, x: f64, most: &f64) -> f64 {
+        if x >= *most {
+            return x.max(0.0);
+        }
+        let lost = (self.hertz(*most) - self.loading(*most)).max(0.0);
+        let end = (lost / (4.0 / 3.0 * self.modulus)).powf(2.0 / 3.0);
+        (x - end).max(0.0)
+    }
+
+    fn dissipated(&self, most: &f64) -> f64 {
+        let yields = self.yield_ratio * self.yield_ratio;
+        if *most <= yields {
+            return 0.0;
+        }
+        let past = most - yields;
+        let loading = 0.4 * self.hertz(yields) * yields
+            + past * (self.hertz(yields) + self.modulus * self.yield_ratio * past);
+        loading - self.elastic_energy(*most, most)
+    }
+
     fn elastic_energy(&self, x: f64, most: &f64) -> f64 {
         let force = self.force(x, &mut most.clone());
         if force <= 0.0 {

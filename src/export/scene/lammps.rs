@@ -1,5 +1,6 @@
 //! Scene for LAMMPS: data file and input script beside the plugin.
 
+use crate::dem::force::named::Constants;
 use crate::export::lammps;
 use crate::export::scene::{Bed, Parts};
 use crate::export::source::artifact::Artifact;
@@ -34,11 +35,16 @@ pub(super) fn export(bed: &Bed) -> Vec<Artifact> {
 
 /// Words for the effects the scene names.
 fn effects(bed: &Bed) -> String {
-    let contact = &bed.scene.contact;
+    let Constants {
+        friction,
+        rolling,
+        restitution,
+        stiffness: _,
+    } = bed.scene.contact;
     let named = [
-        ("friction", contact.friction),
-        ("rolling", contact.rolling),
-        ("restitution", contact.restitution),
+        ("friction", friction),
+        ("rolling", rolling),
+        ("restitution", restitution),
     ];
     let mut words = String::new();
     for (name, value) in named {

@@ -1,5 +1,6 @@
 //! Scene for LIGGGHTS: data file, input script and the mesh of the piston beside the law's library.
 
+use crate::dem::force::named::Constants;
 use crate::export::liggghts;
 use crate::export::scene::{Bed, Parts};
 use crate::export::source::artifact::Artifact;
@@ -36,7 +37,12 @@ pub(super) fn export(bed: &Bed) -> Vec<Artifact> {
 
 /// Models and properties for the effects the scene names.
 fn models(bed: &Bed) -> [(&'static str, String); 4] {
-    let contact = &bed.scene.contact;
+    let Constants {
+        friction,
+        rolling,
+        restitution,
+        stiffness: _,
+    } = bed.scene.contact;
     let mut wall = "model @NAME@".to_owned();
     let mut properties = String::new();
     let mut property = |name: &str, value: f64| {
@@ -45,15 +51,15 @@ fn models(bed: &Bed) -> [(&'static str, String); 4] {
             "fix {name} all property/global {name} peratomtypepair 1 {value:e}"
         );
     };
-    if let Some(friction) = contact.friction {
+    if let Some(friction) = friction {
         wall.push_str(" tangential @NAME@");
         property("coefficientFriction", friction);
     }
-    if let Some(rolling) = contact.rolling {
+    if let Some(rolling) = rolling {
         wall.push_str(" rolling_friction epsd2");
         property("coefficientRollingFriction", rolling);
     }
-    let damping = match contact.restitution {
+    let damping = match restitution {
         Some(restitution) => {
             property("coefficientRestitution", restitution);
             " damping on"

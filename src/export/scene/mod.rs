@@ -7,7 +7,8 @@ pub mod lammps;
 pub mod liggghts;
 
 use crate::bed::run::packing::Packed;
-use crate::bed::scene::{Container, FITTED, LawChoice, Scene, Stage};
+use crate::bed::scene::{Container, FITTED, LawChoice, OutputTable, Scene, Stage, TimeStep};
+use crate::dem::force::named::Constants;
 use crate::export::c::contact::filled;
 use crate::export::c::kernel::number;
 use crate::export::source::artifact::Artifact;
@@ -65,44 +66,86 @@ impl std::str::FromStr for Code {
     }
 }
 
-/// Refuses a scene with something that is not written for other codes, naming it.
+/// Refuses a scene with something that is not written for other codes, naming it. Everything a scene holds is taken apart here,
+/// so that what is new does not compile until it is written or refused.
 ///
 /// # Errors
 /// [`Error::Value`] with the first such thing.
 pub fn check(scene: &Scene) -> Result<()> {
-    let refuse = |key: &str, allowed: &str| Err(scene.document.reject(key, allowed));
-    if scene.container.is_none() {
+    let Scene {
+        // written into the files
+        name: _,
+        hash: _,
+        gravity: _,
+        time:
+            TimeStep {
+                rayleigh_fraction: _,
+                steps_per_contact: _,
+                step: _,
+            },
+        // the packing holds what they have made
+        seed: _,
+        // rows are written; the rest are files of runs that are made here
+        output:
+            OutputTable {
+                rows: _,
+                frames: _,
+                film: _,
+                animation: _,
+                contacts: _,
+                dump: _,
+            },
+        // the groups say which one is used
+        materials: _,
+        document,
+        laws,
+        groups,
+        contact,
+        pairs,
+        container,
+        domain,
+        bodies,
+        stages,
+        measures,
+    } = scene;
+    let refuse = |key: &str, allowed: &str| Err(document.reject(key, allowed));
+    let Some(container) = container else {
         return refuse("box", "must be there: only beds in a box are exported");
+    };
+    check_container(scene, container)?;
+    if domain.is_some() {
+        return refuse("domain", "must be left out: a domain is not exported");
     }
-    if !scene.bodies.is_empty() {
+    if !bodies.is_empty() {
         return refuse(
             "body[0]",
             "must be left out: only the walls and the piston of the box are exported",
         );
     }
-    if !scene.measures.is_empty() {
+    if !measures.is_empty() {
         return refuse("measure[0]", "must be left out: measures are not exported");
     }
-    if scene.contact.softening() != 1.0 {
+    if !pairs.is_empty() {
         return refuse(
-            "contact.stiffness",
-            "must be left out: an exported law has its own stiffness",
+            "pair[0]",
+            "must be left out: an export has the effects of `[contact]` for all contacts",
         );
     }
-    let material = scene.groups[0].material;
-    if let Some(other) = scene.groups.iter().find(|group| group.material != material) {
+    check_contact(scene, contact)?;
+    let material = groups[0].material;
+    if let Some(other) = groups.iter().find(|group| group.material != material) {
         return refuse(
             &format!("{}.material", other.key),
             "must be that of the other groups: an export holds one law",
         );
     }
-    if !scene.laws.iter().any(|law| law == FITTED) {
+    if !laws.iter().any(|law| law == FITTED) {
         return refuse(
             "laws",
             "must hold \"fitted\": that is the law which is exported",
         );
     }
-    for (index, stage) in scene.stages.iter().enumerate() {
+    for (index, stage) in stages.iter().enumerate() {
         if let Stage::Run(_) = stage {
             return refuse(
                 &format!("stage[{index}].kind"),
@@ -110,8 +153,7 @@ pub fn check(scene: &Scene) -> Result<()> {
             );
         }
     }
-    if !scene
-        .stages
+    if !stages
         .iter()
         .any(|stage| matches!(stage, Stage::Compress { .. }))
     {
@@ -119,6 +161,38 @@ pub fn check(scene: &Scene) -> Result<()> {
             "stage",
             "must hold a stage \"compress\": without it the piston does nothing",
         );
+    }
+    Ok(())
+}
+
+/// What of a box is not written.
+fn check_container(scene: &Scene, container: &Container) -> Result<()> {
+    let Container {
+        width: _,
+        depth: _,
+        height: _,
+        // the stages that are written need it
+        piston: _,
+        periodic,
+    } = container;
+    if periodic.contains(&true) {
+        let allowed = "must be left out: sides of the box are exported as walls";
+        return Err(scene.document.reject("periodic", allowed));
+    }
+    Ok(())
+}
+
+/// What of the contacts is not written; the codes take the effects apart themselves.
+fn check_contact(scene: &Scene, contact: &Constants) -> Result<()> {
+    let Constants {
+        restitution: _,
+        friction: _,
+        rolling: _,
+        stiffness,
+    } = contact;
+    if stiffness.is_some_and(|stiffness| stiffness != 1.0) {
+        let allowed = "must be left out: an exported law has its own stiffness";
+        return Err(scene.document.reject("contact.stiffness", allowed));
     }
     Ok(())
 }
