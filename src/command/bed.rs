@@ -226,7 +226,7 @@ fn journey(report: &BedReport) -> String {
             100.0 * s.plastic_share,
             100.0 * s.max_overlap_ratio,
             s.energy_closure,
-            s.lost_grains,
+            s.lost_grains + s.lost_bodies,
             s.wall_s,
         );
     }
@@ -239,6 +239,6 @@ pub fn verdict(report: &BedReport) -> Verdict {
     let summaries = report.laws.iter().map(|run| &run.summary);
     let fine = summaries
         .chain(report.packing.iter().map(|packing| &packing.summary))
-        .all(|s| s.energy_closure < CLOSURE && s.lost_grains == 0);
+        .all(|s| s.energy_closure < CLOSURE && s.lost_grains + s.lost_bodies == 0);
     if fine { Verdict::Met } else { Verdict::Missed }
 }

@@ -5,7 +5,9 @@ mod bodies;
 #[path = "../support/browser.rs"]
 mod browser;
 mod collisions;
+mod fast_bodies;
 mod files;
+mod insertion;
 mod many;
 #[path = "../support/maw_barber_fawcett.rs"]
 mod maw_barber_fawcett;

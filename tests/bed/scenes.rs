@@ -65,9 +65,9 @@ fn every_shipped_scene_is_sound_before_its_first_step() {
             continue;
         }
         let scene = Scene::read(&path).unwrap_or_else(|error| panic!("{error}"));
-        let (grains, _, room) = insert(&scene, scene.seed).unwrap_or_else(|e| panic!("{e}"));
+        let (grains, feed, room) = insert(&scene, scene.seed).unwrap_or_else(|e| panic!("{e}"));
         let machine = Machine::new(scene.all_bodies(&room), scene.gravity, scene.radius()).unwrap();
-        check_bodies(&scene, &grains, &machine).unwrap_or_else(|e| panic!("{name}: {e}"));
+        check_bodies(&scene, &feed, &grains, &machine).unwrap_or_else(|e| panic!("{name}: {e}"));
         assert!(
             grains.spheres.iter().all(|s| room.holds(s.centre)),
             "{name}"
@@ -85,7 +85,7 @@ fn the_order_of_tables_does_not_change_a_bit() {
         EFFECTS,
         BOX,
         FALL,
-        "[[body]]\nname = \"ball\"\nball = { radius = \"2 mm\" }\nat = [\"5 mm\", \"5 mm\", \"36 mm\"]\nfree = { density = \"7800 kg/m3\" }\n",
+        "[[body]]\nname = \"ball\"\nball = { radius = \"2 mm\" }\nat = [\"5 mm\", \"5 mm\", \"36 mm\"]\nfree = { density = \"7800 kg/m3\", joint = { kind = \"prismatic\", axis = [0.0, 0.0, 1.0] } }\n",
         "[output]\nrows = 20\nframes = 0\n",
     ];
     let text = |order: &[usize]| {
@@ -215,7 +215,9 @@ fn under_a_lid(how: &str) -> (f64, f64) {
     );
     let stage =
         "[[stage]]\nkind = \"run\"\nduration = \"0.5 s\"\n[output]\nrows = 50\nframes = 0\n";
-    let report = run(&boxed(&format!("{lid}{stage}")));
+    // the lid comes down at 5 m/s: grains as soft as elsewhere would be flattened by a quarter of their radius
+    let stiff = boxed(&format!("{lid}{stage}")).replace("2 MPa", "20 MPa");
+    let report = run(&stiff);
     let run = only(&report);
     let stress = run.rows.last().map_or(0.0, |row| row.virial_stress_pa);
     (stress, run.summary.energy_closure)

@@ -1,8 +1,9 @@
 //! Feed: the grains that are still to come, and when.
 
 use super::lattice::{Source, lattice, random_of};
-use crate::bed::scene::region::Region;
+use super::space::Space;
 use crate::bed::scene::{Amount, Insertion, Scene, Stage};
+use crate::dem::bodies::machine::Machine;
 use crate::dem::grains::Grains;
 use crate::dem::grains::newcomer::Newcomer;
 use crate::tape::keep_fields;
@@ -100,12 +101,45 @@ impl Feed {
         (0..self.inflows.len()).all(|group| !self.inflows[group].active || self.is_complete(group))
     }
 
-    /// Next lattice of a group, counted in.
-    pub fn lattice(&mut self, group: usize) -> Vec<Newcomer> {
+    /// Group of a grain that was there from the start, by its name.
+    #[must_use]
+    pub fn group_of(&self, id: u32) -> usize {
+        let mut last = 0;
+        let among = |inflow: &Inflow| {
+            last += inflow.grains;
+            (id as usize) < last
+        };
+        self.inflows.iter().position(among).unwrap_or(0)
+    }
+
+    /// What active groups lack, and which bodies are in their way: a sentence for each group.
+    #[must_use]
+    pub fn missing(&self, machine: &Machine) -> Vec<String> {
+        let groups = self.sources.iter().zip(&self.inflows);
+        let missing = groups
+            .filter(|(source, inflow)| inflow.active && !is_reached(source.group.amount, inflow));
+        let sentence = |(source, inflow): (&Source, &Inflow)| {
+            let space = Space::of(source.corners, &Grains::default(), &[], machine);
+            let bodies = space.bodies();
+            let way = match bodies.is_empty() {
+                true => String::new(),
+                false => format!("; in the way of its region: {}", bodies.join(", ")),
+            };
+            let name = &source.group.name;
+            format!(
+                "not all grains of the group \"{name}\" came in, only {}{way}",
+                inflow.grains
+            )
+        };
+        missing.map(sentence).collect()
+    }
+
+    /// Next lattice of a group, counted in; places that are not `free` are left out.
+    pub fn lattice(&mut self, group: usize, free: impl Fn(Vector, f64) -> bool) -> Vec<Newcomer> {
         let (source, inflow) = (&self.sources[group], &mut self.inflows[group]);
         let mut random = random_of(self.seed, group, inflow.batches);
         inflow.batches += 1;
-        lattice(source, &mut random, |last| {
+        lattice(source, &mut random, free, |last| {
             if let Some(grain) = last {
                 inflow.count(grain);
             }
@@ -113,33 +147,30 @@ impl Feed {
         })
     }
 
-    /// Grains that come in at `time` (s), clear of those that are there.
-    pub fn due(&mut self, grains: &Grains, time: f64) -> Vec<Newcomer> {
+    /// Grains that come in at `time` (s), clear of grains, their images and bodies; what finds no room waits.
+    pub fn due(&mut self, grains: &Grains, machine: &Machine, time: f64) -> Vec<Newcomer> {
         let mut newcomers = Vec::new();
         for index in 0..self.sources.len() {
             if !self.inflows[index].active || self.is_complete(index) {
                 continue;
             }
-            let (region, insertion) = {
-                let group = &self.sources[index].group;
-                (group.region, group.insertion)
-            };
-            let Some(region) = region else {
-                newcomers.extend(self.lattice(index));
-                continue;
-            };
-            let mut near = near(&region, grains, &newcomers);
+            let source = &self.sources[index];
+            let insertion = source.group.insertion;
+            let mut space = Space::of(source.corners, grains, &newcomers, machine);
             match insertion {
-                Insertion::Lattice => newcomers.extend(self.lattice(index)),
-                Insertion::Pour if near.is_empty() => newcomers.extend(self.lattice(index)),
+                Insertion::Lattice => newcomers.extend(self.whole(index, &space)),
+                Insertion::Pour if space.is_clear_of_grains() => {
+                    let free = |centre, radius| space.body_at(centre, radius).is_none();
+                    newcomers.extend(self.lattice(index, free));
+                }
                 Insertion::Pour => {}
                 Insertion::Stream(rate) => {
                     let due = rate * (time - self.inflows[index].began);
                     while self.inflows[index].mass < due && !self.is_complete(index) {
-                        let Some(newcomer) = self.one(index, &region, &near) else {
+                        let Some(newcomer) = self.one(index, &space) else {
                             break;
                         };
-                        near.push((newcomer.centre, newcomer.radius));
+                        space.take(&newcomer);
                         newcomers.push(newcomer);
                     }
                 }
@@ -148,20 +179,29 @@ impl Feed {
         newcomers
     }
 
+    /// All grains of a lattice, or none while one of them has no room.
+    fn whole(&mut self, index: usize, space: &Space) -> Vec<Newcomer> {
+        let before = self.inflows[index];
+        let all = self.lattice(index, |_, _| true);
+        if all.iter().all(|one| space.is_free(one.centre, one.radius)) {
+            return all;
+        }
+        self.inflows[index] = before;
+        Vec::new()
+    }
+
     /// One grain of a stream at a random free place, if one is found.
-    fn one(&mut self, index: usize, region: &Region, near: &[(Vector, f64)]) -> Option<Newcomer> {
+    fn one(&mut self, index: usize, space: &Space) -> Option<Newcomer> {
         let (source, inflow) = (&self.sources[index], &mut self.inflows[index]);
         let mut random = random_of(self.seed, index, inflow.batches);
         let radius = source.group.sizes.draw(&mut random);
         let velocity = source.velocity(&mut random);
+        let region = source.group.region?;
         let [low, high] = region.corners();
         for _ in 0..TRIES {
             let mut share = || random.random_range(0.0..=1.0);
             let centre = low + (high - low) * Vector::new(share(), share(), share());
-            let free = near
-                .iter()
-                .all(|(other, size)| (*other - centre).length() > size + radius);
-            if free && region.holds(centre, radius) {
+            if region.holds(centre, radius) && space.is_free(centre, radius) {
                 let newcomer = source.newcomer(centre, radius, velocity);
                 inflow.batches += 1;
                 inflow.count(&newcomer);
@@ -186,17 +226,4 @@ fn is_reached(amount: Amount, inflow: &Inflow) -> bool {
         Amount::Count(count) => inflow.grains >= count,
         Amount::Mass(mass) => inflow.mass >= mass,
     }
-}
-
-/// Centres and radii of all grains that reach into a region.
-fn near(region: &Region, grains: &Grains, newcomers: &[Newcomer]) -> Vec<(Vector, f64)> {
-    let [low, high] = region.corners();
-    let here = grains.spheres.iter().map(|s| (s.centre, s.radius));
-    let new = newcomers.iter().map(|one| (one.centre, one.radius));
-    here.chain(new)
-        .filter(|(centre, radius)| {
-            let nearest = centre.clamp(low, high);
-            (nearest - *centre).length_squared() < radius * radius
-        })
-        .collect()
 }

@@ -11,6 +11,9 @@ pub const SPACING: f64 = 1.1;
 /// Largest shift of a grain off its lattice place along an axis, over the radius: neighbours 2.2 R apart stay apart.
 const SHIFT: f64 = 0.08;
 
+/// Places in a row that hold no grain after which a region is given up: more than any row of a cylinder has.
+const MISSES: usize = 10_000_000;
+
 /// A group with all that making its grains takes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Source {
@@ -62,13 +65,15 @@ pub fn random_of(seed: u64, group: usize, batch: u64) -> Pcg64Mcg {
     Pcg64Mcg::seed_from_u64(seed.wrapping_add(group).wrapping_add(batch))
 }
 
-/// Fills the region of a source, or its box as high as needed, with grains until `enough` says so or it is full.
+/// Fills the region of a source, or its box as high as needed, with grains until `enough` says so or it is full; a place
+/// (m) for a radius (m) that is not `free` is left out.
 ///
 /// They stand in square layers, each layer moved sideways at random and each grain a little off its place, so that no
 /// columns are left standing.
 pub fn lattice(
     source: &Source,
     random: &mut Pcg64Mcg,
+    free: impl Fn(Vector, f64) -> bool,
     mut enough: impl FnMut(Option<&Newcomer>) -> bool,
 ) -> Vec<Newcomer> {
     let group = &source.group;
@@ -86,10 +91,10 @@ pub fn lattice(
     );
     let mut layer = Vector::ZERO;
     let mut newcomers = Vec::new();
-    let mut complete = enough(None);
+    let (mut complete, mut missed) = (enough(None), 0);
     for index in 0.. {
         let height = index / in_layer;
-        if complete || (height + 1) as f64 * spacing > size.z {
+        if complete || missed > MISSES || (height + 1) as f64 * spacing > size.z {
             break;
         }
         if index % in_layer == 0 {
@@ -102,10 +107,11 @@ pub fn lattice(
         let radius = group.sizes.draw(random);
         let centre = low + (place + 0.5) * spacing + layer + shift;
         let newcomer = source.newcomer(centre, radius, source.velocity(random));
-        if group
+        let inside = group
             .region
-            .is_none_or(|region| region.holds(centre, radius))
-        {
+            .is_none_or(|region| region.holds(centre, radius));
+        missed = if inside { 0 } else { missed + 1 };
+        if inside && free(centre, radius) {
             complete = enough(Some(&newcomer));
             newcomers.push(newcomer);
         }

@@ -28,6 +28,8 @@ pub struct Summary {
     pub energy_closure: f64,
     /// Largest number of grains seen outside the box.
     pub lost_grains: usize,
+    /// Largest number of free bodies seen outside it.
+    pub lost_bodies: usize,
     /// Largest overlap over diameter.
     pub max_overlap_ratio: f64,
     /// Largest number of contacts flattened beyond what the law's source supports.
@@ -68,6 +70,8 @@ pub struct Counts {
     pub wall_s: f64,
     /// Grains outside.
     pub lost: usize,
+    /// Free bodies outside.
+    pub lost_bodies: usize,
     /// Contacts beyond the law's validity.
     pub beyond_validity: usize,
     /// Largest overlap over diameter.
@@ -98,6 +102,7 @@ impl Summary {
             particle_steps_per_s: counts.particle_steps as f64 / counts.wall_s,
             energy_closure,
             lost_grains: counts.lost,
+            lost_bodies: counts.lost_bodies,
             max_overlap_ratio: counts.max_overlap_ratio,
             beyond_validity: counts.beyond_validity,
             max_stress_pa: peak.map_or(0.0, |r| r.stress_pa),

@@ -128,7 +128,17 @@ pub fn run_scene(scene: &Scene, given: Option<&LawFile>, options: &Options) -> R
 pub(in crate::bed) fn begin(scene: &Scene, options: &Options) -> Result<Start> {
     let (grains, feed, room) = insert(scene, options.seed.unwrap_or(scene.seed))?;
     time_step::check(scene)?;
-    check_bodies(scene, &grains, &machine(scene, &room)?)?;
+    let machine = machine(scene, &room)?;
+    check_bodies(scene, &feed, &grains, &machine)?;
+    if let Some([free, other]) = machine.meeting() {
+        let [free, other] = [free, other].map(|body| &machine.bodies()[body].name);
+        let index = scene.bodies.iter().position(|body| body.name == *free);
+        let key = format!("body[{}].free", index.unwrap_or(0));
+        let allowed = format!(
+            "must stay clear of \"{other}\": bodies meet grains only; move it, hold it, or give it a joint"
+        );
+        return Err(scene.document.reject(&key, allowed));
+    }
     Ok(Start {
         grains,
         bodies: None,
@@ -293,6 +303,7 @@ fn finish(
         particle_steps: run.tally.particle_steps,
         wall_s: run.seconds_before + began.elapsed().as_secs_f64(),
         lost: run.tally.lost,
+        lost_bodies: run.tally.lost_bodies,
         beyond_validity: run.tally.beyond_validity,
         max_overlap_ratio: run.tally.max_overlap_ratio,
         contact_stiffness: softening,
@@ -333,6 +344,12 @@ fn warnings(run: &Done) -> Vec<String> {
             tally.lost
         ));
     }
+    if tally.lost_bodies > 0 {
+        warnings.push(format!(
+            "{} free bodies were outside the room",
+            tally.lost_bodies
+        ));
+    }
     if tally.beyond_validity > 0 {
         warnings.push(format!(
             "{} contacts at once were flattened beyond the range of the law: it was extrapolated",
@@ -354,9 +371,7 @@ fn warnings(run: &Done) -> Vec<String> {
             100.0 * CLOSURE
         ));
     }
-    if !run.feed.is_done() {
-        warnings.push("not all grains came in".to_owned());
-    }
+    warnings.extend(run.feed.missing(run.bed.machine()));
     warnings
 }
 

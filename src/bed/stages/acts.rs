@@ -13,6 +13,17 @@ const LONGEST_APPROACH: f64 = 0.5;
 /// Time for a compression to be sampled over, over what the strain alone takes: the piston has to come near first.
 const APPROACH: f64 = 1.2;
 
+/// First of the instants `due`, `due + interval` and so on that comes after `now`, however short the interval.
+fn after(now: f64, due: f64, interval: f64) -> f64 {
+    let next = due + interval;
+    if next > now {
+        return next;
+    }
+    let skipped = ((now - next) / interval).floor() + 1.0;
+    // an interval below the resolution of the clock, or none
+    (next + skipped * interval).max(now.next_up())
+}
+
 impl Run<'_> {
     /// Begins a stage.
     pub(in crate::bed) fn begin(&mut self, stage: &Stage) -> Result<()> {
@@ -55,7 +66,7 @@ impl Run<'_> {
             interval: duration / self.terms.rows as f64,
             face: self.view().face(self.bed.as_ref()),
             growth: self.growth(stage),
-            checked: self.place.checked,
+            next_check: self.place.next_check,
             slow_since: None,
             carried_since: None,
         };
@@ -165,9 +176,7 @@ impl Run<'_> {
         if now < self.place.next_row {
             return Ok(());
         }
-        while self.place.next_row <= now {
-            self.place.next_row += self.place.interval;
-        }
+        self.place.next_row = after(now, self.place.next_row, self.place.interval);
         self.record()
     }
 
@@ -263,6 +272,22 @@ impl Run<'_> {
                 "{}: not all grains have come in; make the stage longer or the region larger",
                 run.name
             );
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::after;
+
+    #[test]
+    fn the_next_row_comes_after_now_however_short_the_interval() {
+        assert_eq!(after(1.0, 1.0, 0.5), 1.5);
+        assert_eq!(after(2.1, 1.0, 0.5), 2.5);
+        assert_eq!(after(2.5, 1.0, 0.5), 3.0);
+        for interval in [1e-12, 1e-27, 5e-324, 0.0] {
+            let next = after(1.0, 0.0, interval);
+            assert!(next > 1.0 && next <= 1.0 + 2e-12, "{interval}: {next}");
         }
     }
 }

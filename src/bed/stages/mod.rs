@@ -18,6 +18,8 @@ use parry3d::math::Vector;
 
 /// Steps between checks of time step, overlap and rest.
 pub const CHECK_EVERY: u64 = 50;
+/// The same where an impact may be too deep: an impact takes at least four times as many.
+pub const CHECK_DEEP: u64 = 5;
 /// Overlap over diameter at which a bed has left every contact law's ground and is stopped.
 const TOO_DEEP: f64 = 0.25;
 
@@ -81,6 +83,8 @@ impl Terms {
 pub struct Tally {
     /// Largest number of grains seen outside the room.
     pub lost: usize,
+    /// Largest number of free bodies seen outside the room.
+    pub lost_bodies: usize,
     /// Largest overlap over diameter seen.
     pub max_overlap_ratio: f64,
     /// Largest number of contacts seen beyond the validity of the law.
@@ -88,7 +92,7 @@ pub struct Tally {
     /// Steps of single grains.
     pub particle_steps: u64,
 }
-keep_fields!(Tally: lost, max_overlap_ratio, beyond_validity, particle_steps);
+keep_fields!(Tally: lost, lost_bodies, max_overlap_ratio, beyond_validity, particle_steps);
 
 /// Where a run is within its stage: all that going on needs beside the bed.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -107,14 +111,14 @@ pub struct Place {
     pub face: f64,
     /// Factor by which the stiffness grows in a step.
     pub growth: f64,
-    /// Step of the last check.
-    pub checked: u64,
+    /// Step of the next check.
+    pub next_check: u64,
     /// Since when the grains have been slow, s; none while they are not.
     pub slow_since: Option<f64>,
     /// Height (m) of the piston's face since which the stress has not been below the seating stress.
     pub carried_since: Option<f64>,
 }
-keep_fields!(Place: begun, time, step, next_row, interval, face, growth, checked, slow_since, carried_since);
+keep_fields!(Place: begun, time, step, next_row, interval, face, growth, next_check, slow_since, carried_since);
 
 /// A bed going through stages.
 pub struct Run<'a> {
@@ -271,7 +275,7 @@ impl<'a> Run<'a> {
     /// Forces of the present instant; every few steps also grains that come in and the checks, whose survey is
     /// returned.
     pub(in crate::bed) fn prepare(&mut self) -> Result<Option<Packing>> {
-        let check = self.step() >= self.place.checked + CHECK_EVERY || self.step() == 0;
+        let check = self.step() >= self.place.next_check || self.step() == 0;
         // at the first step of a later stage forces have been evaluated already, which must happen once
         if check && (self.step() > self.place.step || self.step() == 0) {
             self.let_in();
@@ -285,18 +289,26 @@ impl<'a> Run<'a> {
         if !check {
             return Ok(None);
         }
-        self.place.checked = self.step();
         let packing = self.bed.packing();
+        self.place.next_check = self.step() + self.until_next_check(&packing);
         self.set_dt(&packing)?;
         let outside = self.outside();
+        let bodies_outside = self.bodies_outside().count();
         let tally = &mut self.tally;
         tally.max_overlap_ratio = tally.max_overlap_ratio.max(packing.max_overlap_ratio);
         tally.beyond_validity = tally.beyond_validity.max(packing.beyond_validity);
         tally.lost = tally.lost.max(outside);
+        tally.lost_bodies = tally.lost_bodies.max(bodies_outside);
         if packing.max_overlap_ratio > TOO_DEEP {
             return Err(self.stop(format!(
                 "two grains overlap by {:.0} % of a diameter; no contact law holds there: compress less or more slowly",
                 100.0 * packing.max_overlap_ratio
+            )));
+        }
+        if let Some([free, other]) = self.bed.machine().meeting() {
+            let [free, other] = [free, other].map(|body| &self.bed.machine().bodies()[body].name);
+            return Err(self.stop(format!(
+                "the free body \"{free}\" has come to \"{other}\", and bodies meet grains only; end the stage before, keep it away with more grains, or give it a joint"
             )));
         }
         if self.bed.left_out() > 0 {
@@ -307,13 +319,22 @@ impl<'a> Run<'a> {
         Ok(Some(packing))
     }
 
+    /// Steps to the next check: fewer where an impact may be too deep, so that none is over unseen.
+    fn until_next_check(&self, packing: &Packing) -> u64 {
+        let speed = packing.max_speed + self.bed.machine().fastest();
+        match self.terms.limits.flattening(self.softening, speed) > TOO_DEEP {
+            true => CHECK_DEEP,
+            false => CHECK_EVERY,
+        }
+    }
+
     /// Lets the grains that are due come in; the energy they bring is not the bed's imbalance.
     fn let_in(&mut self) {
         if self.feed.is_done() {
             return;
         }
         let (dt, time, _) = self.bed.clock();
-        let newcomers = self.feed.due(self.bed.grains(), time);
+        let newcomers = self.feed.due(self.bed.grains(), self.bed.machine(), time);
         if newcomers.is_empty() {
             return;
         }
@@ -351,7 +372,7 @@ impl<'a> Run<'a> {
         let dt = self
             .terms
             .limits
-            .step(self.softening, packing)
+            .step(self.softening, packing, self.bed.machine().fastest())
             .map_err(|reason| self.stop(reason))?;
         self.bed.set_dt(dt);
         Ok(())
@@ -384,6 +405,15 @@ impl<'a> Run<'a> {
             .iter()
             .filter(|sphere| !self.room.holds(sphere.centre))
             .count()
+    }
+
+    /// Names of the free bodies outside the room now.
+    pub fn bodies_outside(&self) -> impl Iterator<Item = &str> {
+        let machine = self.bed.machine();
+        let outside = machine
+            .loose()
+            .filter(|&body| !self.room.holds(machine.stations[body].centre));
+        outside.map(|body| machine.bodies()[body].name.as_str())
     }
 
     /// Index of the piston.

@@ -1,13 +1,16 @@
-//! Time step: the largest that follows the stiffest contact, the waves through a grain and the fastest grain.
+//! Time step: the largest that follows the stiffest contact, the waves through a grain, the fastest grain and the fastest
+//! body.
 
 use crate::Result;
-use crate::bed::scene::{GrainMaterial, Group, Scene, TimeStep};
+use crate::bed::scene::{Change, GrainMaterial, Group, Scene, Stage, TimeStep};
+use crate::dem::bodies::motion::Motion;
+use crate::dem::bodies::{Body, Mobility};
 use crate::dem::dynamics::state::Packing;
 use crate::material::Material;
 use crate::unit::engineering;
 use std::f64::consts::PI;
 
-/// Largest way of a grain in one step, over its radius.
+/// Largest way by which a grain and another or a body may close in one step, over the radius.
 const LONGEST_WAY: f64 = 0.1;
 
 /// Time a Rayleigh wave takes over half a grain, s.
@@ -17,7 +20,7 @@ const LONGEST_WAY: f64 = 0.1;
 /// Source: Thornton and Randall 1988; the denominator is the usual fit of the Rayleigh speed over the shear speed.
 ///
 /// ```
-/// use impactlaw::{bed::time_step::rayleigh_time, material::Material};
+/// use impactlaw::{bed::stages::time_step::rayleigh_time, material::Material};
 /// let glass = Material { density: 2500.0, young_modulus: 5e7, poisson_ratio: 0.3, flow: None };
 /// // pi * 1e-3 * sqrt(2500 / 1.923e7) / 0.92553 = 3.87e-5 s
 /// assert!((rayleigh_time(&glass, 1e-3) - 3.87e-5).abs() < 1e-7);
@@ -37,7 +40,7 @@ pub fn rayleigh_time(material: &Material, radius: f64) -> f64 {
 /// Source: Johnson 1985, section 11.4. A contact that yields is softer while it loads, and lasts longer.
 ///
 /// ```
-/// use impactlaw::{bed::time_step::impact_time, material::Material};
+/// use impactlaw::{bed::stages::time_step::impact_time, material::Material};
 /// let glass = Material { density: 2500.0, young_modulus: 5e7, poisson_ratio: 0.3, flow: None };
 /// // 2.868 * ((5.236e-6)^2 / (5e-4 * (2.747e7)^2 * 1))^0.2 = 1.071e-4 s
 /// assert!((impact_time(&glass, 1e-3, 1.0) - 1.071e-4).abs() < 1e-7);
@@ -51,6 +54,27 @@ pub fn impact_time(material: &Material, radius: f64, speed: f64) -> f64 {
     2.868 * (mass * mass / (0.5 * radius * modulus * modulus * speed)).powf(0.2)
 }
 
+/// Depth over radius to which a grain of `material` flattens elastically where it meets a rigid body at `speed` (m/s),
+/// contacts `softening` times as stiff as the material's; twice as fast, it is the overlap of two grains over their
+/// diameter.
+///
+/// $$ \frac{\delta^\ast}{R} = \left( \frac{5 \pi}{4} \frac{\rho v^2}{E^\ast} \right)^{2/5} $$
+///
+/// Source: Johnson 1985, section 11.4: $\tfrac12 m v^2 = \tfrac{8}{15} E^\ast \sqrt{R}\ \delta^{5/2}$. A grain that yields goes
+/// deeper.
+///
+/// ```
+/// use impactlaw::{bed::stages::time_step::flattening, material::Material};
+/// let glass = Material { density: 2500.0, young_modulus: 7e6, poisson_ratio: 0.25, flow: None };
+/// // (3.927 * 2500 * 80^2 / 7.467e6)^0.4 = 2.34: no contact law holds there
+/// assert!((flattening(&glass, 80.0, 1.0) - 2.34).abs() < 5e-3);
+/// ```
+#[must_use]
+pub fn flattening(material: &Material, speed: f64, softening: f64) -> f64 {
+    let ratio = material.density * speed * speed / (softening * material.contact_modulus());
+    (1.25 * PI * ratio).powf(0.4)
+}
+
 /// What bounds the time step of a scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
@@ -61,6 +85,8 @@ pub struct Limits {
     rayleigh: f64,
     /// Smallest radius, m.
     smallest: f64,
+    /// Deepest flattening of a grain that meets a rigid body at 1 m/s and full stiffness, over its radius.
+    flattening: f64,
 }
 
 impl Limits {
@@ -78,6 +104,7 @@ impl Limits {
             impact: least(&|group| impact_time(material(group), smallest(group), 1.0)),
             rayleigh: least(&|group| rayleigh_time(material(group), smallest(group))),
             smallest: least(&smallest),
+            flattening: -least(&|group| -flattening(material(group), 1.0, 1.0)),
         }
     }
 
@@ -89,16 +116,31 @@ impl Limits {
         self.settings.step.map_or(limit, |step| limit.min(step))
     }
 
-    /// Time step (s) for the present state.
+    /// Depth over radius to which a grain may flatten at this speed (m/s) against a body.
+    #[must_use]
+    pub fn flattening(&self, softening: f64, speed: f64) -> f64 {
+        self.flattening * (speed * speed / softening).powf(0.4)
+    }
+
+    /// Time step (s) for the present state, the fastest point of a body at `body_speed` (m/s).
     ///
     /// # Errors
     /// The reason why the scene's own step is too large for it, with the largest that would do.
-    pub fn step(&self, softening: f64, packing: &Packing) -> std::result::Result<f64, String> {
-        // contacts that are there, and those the fastest grains may begin before the next look
-        let (speed, least) = (2.0 * packing.max_speed, self.settings.steps_per_contact);
-        let coming = self.impact / (softening * softening * speed).powf(0.2);
+    pub fn step(
+        &self,
+        softening: f64,
+        packing: &Packing,
+        body_speed: f64,
+    ) -> std::result::Result<f64, String> {
+        // contacts that are there, and those the fastest may begin before the next look: two grains head on, or a grain
+        // on a body; a body's impact at a speed lasts as long as that of two grains at twice the speed
+        let (speed, least) = (
+            packing.max_speed + body_speed,
+            self.settings.steps_per_contact,
+        );
+        let coming = self.impact / (softening * softening * 2.0 * speed).powf(0.2);
         let contact = packing.contact_time.min(coming) / least;
-        let way = LONGEST_WAY * self.smallest / packing.max_speed;
+        let way = LONGEST_WAY * self.smallest / speed;
         let rayleigh = self.settings.rayleigh_fraction * self.rayleigh / softening.sqrt();
         let limit = rayleigh.min(contact).min(way);
         let Some(step) = self.settings.step else {
@@ -110,7 +152,7 @@ impl Limits {
         let why = if limit == contact {
             "the stiffest contact"
         } else if limit == way {
-            "the fastest grain"
+            "the fastest grain or body"
         } else {
             "the Rayleigh time"
         };
@@ -121,11 +163,13 @@ impl Limits {
     }
 }
 
-/// That a scene's own time step is within the Rayleigh limit, before anything is run.
+/// That no body is told, or sent off, so fast that every grain it hits would be flattened by its whole radius: far beyond
+/// all contact laws, whatever the damping; and that the scene's own time step is within the Rayleigh limit.
 ///
 /// # Errors
-/// [`crate::Error::Value`] with the largest step allowed.
+/// [`crate::Error::Value`] with the largest speed or step allowed.
 pub fn check(scene: &Scene) -> Result<()> {
+    check_speeds(scene)?;
     let Some(step) = scene.time.step else {
         return Ok(());
     };
@@ -144,4 +188,72 @@ pub fn check(scene: &Scene) -> Result<()> {
         scene.time.rayleigh_fraction
     );
     Err(scene.document.reject("time.step", allowed))
+}
+
+fn check_speeds(scene: &Scene) -> Result<()> {
+    let softening = scene.contact.softening();
+    let materials = scene
+        .groups
+        .iter()
+        .map(|group| &scene.materials[group.material].material);
+    let least = materials
+        .map(|material| flattening(material, 1.0, softening))
+        .fold(f64::INFINITY, f64::min);
+    let fastest = least.powf(-1.25);
+    for (key, speed) in told_speeds(scene) {
+        if speed > fastest {
+            let allowed = format!(
+                "must be slower: at {} every grain it hits would be flattened by more than its radius, where no contact law holds; at most {}, or stiffer grains",
+                engineering(speed, "m/s", 3),
+                engineering(fastest, "m/s", 3)
+            );
+            return Err(scene.document.reject(&key, allowed));
+        }
+    }
+    Ok(())
+}
+
+/// Largest speed (m/s) of each body of a scene that has one, and of each that a stage gives one, with its key.
+fn told_speeds(scene: &Scene) -> Vec<(String, f64)> {
+    let arm = |body: &Body, motion: &Motion| {
+        // a plane has no end: without a turn its arm does not matter
+        let off = motion
+            .about
+            .map_or(0.0, |about| (body.centre - about).length());
+        let turns = motion.spin.length_squared() > 0.0;
+        if turns { body.solid.reach() + off } else { 0.0 }
+    };
+    let mut speeds = Vec::new();
+    for (index, body) in scene.bodies.iter().enumerate() {
+        match &body.mobility {
+            Mobility::Fixed => {}
+            Mobility::Driven(motion) => {
+                let speed = motion.fastest(arm(body, motion));
+                speeds.push((format!("body[{index}].driven"), speed));
+            }
+            Mobility::Free(freedom) => {
+                let speed = freedom.velocity.length();
+                speeds.push((format!("body[{index}].free.velocity"), speed));
+            }
+        }
+    }
+    for (index, stage) in scene.stages.iter().enumerate() {
+        match stage {
+            Stage::Compress { speed, .. } | Stage::Unload { speed } => {
+                speeds.push((format!("stage[{index}].speed"), *speed));
+            }
+            Stage::Run(run) => {
+                for (at, order) in run.moves.iter().enumerate() {
+                    if let Change::Drive(motion) = &order.change {
+                        let body = scene.bodies.iter().find(|body| body.name == order.body);
+                        let arm = body.map_or(0.0, |body| arm(body, motion));
+                        let key = format!("stage[{index}].move[{at}].driven");
+                        speeds.push((key, motion.fastest(arm)));
+                    }
+                }
+            }
+            Stage::Settle { .. } | Stage::Relax { .. } => {}
+        }
+    }
+    speeds
 }

@@ -62,9 +62,11 @@ impl Cells {
                 (low[axis], extent[axis], closed[axis]) = (side, period, true);
             }
         }
-        let mut size = size;
+        // without grains there is no size; a periodic room has an extent all the same
+        let mut size = size.max(f64::MIN_POSITIVE);
         let mut count = grid(extent, size);
-        while count[0] * count[1] * count[2] > MAX_CELLS_PER_GRAIN * spheres.len() + 64 {
+        let cells = |[x, y, z]: [usize; 3]| x.saturating_mul(y).saturating_mul(z);
+        while cells(count) > MAX_CELLS_PER_GRAIN * spheres.len() + 64 {
             size *= 2.0;
             count = grid(extent, size);
         }

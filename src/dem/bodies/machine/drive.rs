@@ -20,8 +20,8 @@ pub struct BodyState {
 /// Told motion of a body with where and when it began, in the machine's unit.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Drive {
-    motion: Motion,
-    start: Vector,
+    pub(super) motion: Motion,
+    pub(super) start: Vector,
     began: f64,
 }
 

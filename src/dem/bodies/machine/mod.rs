@@ -5,6 +5,7 @@
 //! and times stay SI. Everything that comes out is SI.
 
 mod drive;
+mod encounter;
 mod joint;
 
 pub use drive::BodyState;

@@ -1,0 +1,163 @@
+//! Checks of a filling before the first step: that every group has room, clear of other grains and of bodies.
+
+use super::feed::Feed;
+use super::lattice::{Source, lattice, random_of};
+use super::space::Space;
+use crate::Result;
+use crate::bed::scene::region::Region;
+use crate::bed::scene::{Insertion, Scene, Stage};
+use crate::dem::bodies::Mobility;
+use crate::dem::bodies::machine::Machine;
+use crate::dem::grains::neighbours::HalfList;
+use crate::dem::grains::{Grains, Sphere};
+use parry3d::math::Vector;
+
+/// That every group fits into where it comes in.
+///
+/// # Errors
+/// [`crate::Error::Value`] naming region or box.
+pub fn check_regions(scene: &Scene, seed: u64) -> Result<()> {
+    for (index, group) in scene.groups.iter().enumerate() {
+        let [_, largest] = group.sizes.limits();
+        let key = match group.region {
+            Some(_) => format!("{}.region", group.key),
+            None => "box.height".to_owned(),
+        };
+        let (fits, wanted) = match group.insertion {
+            Insertion::Stream(_) => {
+                let holds = |region: Region| {
+                    let [low, high] = region.corners();
+                    region.holds(0.5 * (low + high), largest)
+                };
+                (
+                    usize::from(group.region.is_some_and(holds)),
+                    "one grain".to_owned(),
+                )
+            }
+            Insertion::Pour => {
+                let source = Source::of(scene, group);
+                let mut random = random_of(seed, index, 0);
+                let first = lattice(&source, &mut random, |_, _| true, |last| last.is_some());
+                (first.len(), "one grain".to_owned())
+            }
+            Insertion::Lattice => {
+                let mut feed = Feed::new(scene, seed);
+                let all = feed.lattice(index, |_, _| true);
+                if !feed.is_complete(index) {
+                    let allowed = format!(
+                        "must be larger: {} of the grains fit without overlap; enlarge it, or pour them (`insertion = \"pour\"`)",
+                        all.len()
+                    );
+                    return Err(scene.document.reject(&key, allowed));
+                }
+                (all.len(), String::new())
+            }
+        };
+        if fits == 0 {
+            let allowed = format!("must be larger: not even {wanted} fits in it");
+            return Err(scene.document.reject(&key, allowed));
+        }
+    }
+    Ok(())
+}
+
+/// That grains, of the groups in their order, are clear of each other and of their images.
+///
+/// # Errors
+/// [`crate::Error::Value`] naming the regions.
+pub fn check_overlaps(scene: &Scene, grains: &Grains, groups: &[usize]) -> Result<()> {
+    let inside = |sphere: &Sphere| Sphere {
+        centre: grains.room.inside(sphere.centre),
+        ..*sphere
+    };
+    let spheres: Vec<Sphere> = grains.spheres.iter().map(inside).collect();
+    let list = HalfList::within(&grains.room, &spheres, 0.0);
+    let Some(&[a, b]) = list.pairs.first() else {
+        return Ok(());
+    };
+    let [a, b] = [a, b].map(|grain| groups[grain as usize]);
+    let (first, second) = (&scene.groups[a], &scene.groups[b]);
+    let allowed = match a == b {
+        true => {
+            "must be no wider than the period of the box: its grains would overlap their images"
+                .to_owned()
+        }
+        false => format!(
+            "must not reach into that of the group \"{}\": grains of both would overlap; move it, or pour them",
+            first.name
+        ),
+    };
+    Err(scene
+        .document
+        .reject(&format!("{}.region", second.key), allowed))
+}
+
+/// That no grain comes in where a body is: none that is there from the start, and none of the first lattice of a group
+/// that comes later, as far as bodies stay where they are. Streams go round bodies.
+///
+/// # Errors
+/// [`crate::Error::Value`] naming group and body.
+pub fn check_bodies(scene: &Scene, feed: &Feed, grains: &Grains, machine: &Machine) -> Result<()> {
+    let everywhere = [Vector::MIN, Vector::MAX];
+    let space = Space::of(everywhere, &Grains::default(), &[], machine);
+    for (sphere, &id) in grains.spheres.iter().zip(&grains.ids) {
+        if let Some(body) = space.body_at(sphere.centre, sphere.radius) {
+            return Err(in_the_way(
+                scene,
+                machine,
+                feed.group_of(id),
+                body,
+                sphere.centre,
+            ));
+        }
+    }
+    for (index, group) in scene.groups.iter().enumerate() {
+        let from_the_start = feed.inflows[index].active;
+        let waits = matches!(group.insertion, Insertion::Stream(_));
+        if waits || (from_the_start && group.insertion == Insertion::Lattice) {
+            continue;
+        }
+        let mut batch = Grains {
+            room: grains.room,
+            ..Grains::default()
+        };
+        let first = feed.clone().lattice(index, |_, _| true);
+        first.iter().for_each(|one| one.join(&mut batch));
+        check_overlaps(scene, &batch, &vec![index; batch.len()])?;
+        for sphere in &batch.spheres {
+            let body = space.body_at(sphere.centre, sphere.radius);
+            if let Some(body) = body.filter(|&body| from_the_start || stays(scene, machine, body)) {
+                return Err(in_the_way(scene, machine, index, body, sphere.centre));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Whether a body stands where it is in every stage.
+fn stays(scene: &Scene, machine: &Machine, body: usize) -> bool {
+    let body = &machine.bodies()[body];
+    let told = |stage: &Stage| match stage {
+        Stage::Run(run) => run.moves.iter().any(|order| order.body == body.name),
+        _ => false,
+    };
+    body.mobility == Mobility::Fixed && !scene.stages.iter().any(told)
+}
+
+fn in_the_way(
+    scene: &Scene,
+    machine: &Machine,
+    group: usize,
+    body: usize,
+    place: Vector,
+) -> crate::Error {
+    let (name, group) = (&machine.bodies()[body].name, &scene.groups[group]);
+    let index = scene.bodies.iter().position(|body| body.name == *name);
+    let key = index.map_or(group.key.clone(), |index| format!("body[{index}]"));
+    let [x, y, z] = (place * 1e3).to_array();
+    let allowed = format!(
+        "must stay clear of the grains: \"{name}\" reaches into the grain of \"{}\" at ({x:.3}, {y:.3}, {z:.3}) mm; move the body or the grains' region",
+        group.name
+    );
+    scene.document.reject(&key, allowed)
+}
