@@ -81,9 +81,9 @@ fn expected(message: &str, wrong: &str) -> BTreeSet<String> {
 /// The TOML a heading stands for, and the path of the table it opens.
 fn opened(heading: &str) -> (String, String) {
     let lines = spans(heading);
-    let tables = lines.iter().filter(|line| line.starts_with('['));
+    let mut tables = lines.iter().filter(|line| line.starts_with('['));
     let path = tables
-        .last()
+        .next_back()
         .map_or("", |line| line.trim_matches(['[', ']']));
     (lines.join("\n"), path.to_owned())
 }
