@@ -9,7 +9,7 @@
 //!                                                                      +-> export
 //! ```
 //!
-//! Units are SI everywhere in memory; files carry their units in keys and headers.
+//! How to use it: [`guide`]. Units are SI everywhere in memory; files carry their units in keys and headers.
 #![warn(missing_docs)]
 #![cfg_attr(not(test), deny(clippy::unwrap_used))]
 
@@ -27,6 +27,7 @@ pub mod error;
 pub mod export;
 pub mod files;
 pub mod fit;
+pub mod guide;
 pub mod impact;
 pub mod lanes;
 pub mod law;

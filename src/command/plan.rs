@@ -63,7 +63,7 @@ pub fn text(case: &Case, plans: &[Plan]) -> String {
         );
         for e in &p.effects {
             let state = if e.on { "on " } else { "off" };
-            let _ = writeln!(out, "  {state} {:<16} {}", e.name, e.reason);
+            let _ = writeln!(out, "  {state} {:<18} {}", e.name, e.reason);
         }
     }
     let total: f64 = plans.iter().map(|p| p.seconds).sum();

@@ -327,7 +327,7 @@ fn table(
     Ok(text)
 }
 
-/// Keys and values of `summary.json` in its order (`velocity_m_s` first); the status as one word, its reason after a colon.
+/// Keys and values of `summary.json` in its order (`velocity_m_s` first), but for `particle`; the status as one word, its reason after a colon.
 fn figures(summary: &Summary) -> std::result::Result<Vec<(String, String)>, serde_json::Error> {
     let text = serde_json::to_string_pretty(summary)?;
     let value: serde_json::Value = serde_json::from_str(&text)?;
@@ -338,6 +338,8 @@ fn figures(summary: &Summary) -> std::result::Result<Vec<(String, String)>, serd
             // a column of its own says what they are made of
             .filter(|key| *key != "warnings")
     });
+    // whose impact it is, the case's own columns say
+    let keys = keys.filter(|key| *key != "particle");
     Ok(keys
         .map(|key| {
             let cell = match &value[key] {

@@ -1,6 +1,7 @@
 //! Cost ladders through the real binary: table, CSV and figure; finished runs are kept; unknown ladders are refused.
 
 use crate::program::impactlaw;
+use crate::reference;
 use std::path::Path;
 use std::process::Output;
 
@@ -37,6 +38,7 @@ fn errors_fall_along_the_ladder_and_a_second_call_repeats_nothing() {
     assert!(cell(last, "mae_displacement") < 0.5 * cell(2, "mae_displacement"));
     assert!(cell(last, "error") < 0.02);
     assert!(done.join("cost_V50.svg").is_file() && done.join("cost_V50.md").is_file());
+    assert!(reference::assert_described(&done).contains("cost_V*.csv"));
     assert!(cost(folder.path(), "cells, degree 2").status.success());
     let second = std::fs::read_to_string(done.join("cost_V50.csv")).unwrap();
     assert_eq!(first, second);

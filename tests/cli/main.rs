@@ -3,11 +3,13 @@
 mod bed_resume;
 mod bed_shipped;
 mod cost;
+mod guide;
 mod impact;
 mod killed;
 mod owner;
 #[path = "../support/program.rs"]
 mod program;
+mod reference;
 mod report_page;
 mod resume;
 mod study;

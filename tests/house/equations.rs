@@ -3,7 +3,7 @@
 use crate::browser;
 use crate::sources::sources;
 use std::collections::BTreeSet;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 const HEADER: &str = include_str!("../../src/equations.html");
 
@@ -82,7 +82,7 @@ fn fault(equation: &str, known: &BTreeSet<String>) -> Option<String> {
         .then(|| "braces do not pair".to_owned())
 }
 
-/// Every equation of the sources with the path of its file.
+/// Every equation of the sources and of the guide with the path of its file.
 fn all() -> Vec<(PathBuf, String)> {
     let mut all = Vec::new();
     for (path, text) in sources() {
@@ -90,6 +90,16 @@ fn all() -> Vec<(PathBuf, String)> {
             let found = equations(&comment);
             let found =
                 found.unwrap_or_else(|| panic!("{}: a lone $ in\n{comment}", path.display()));
+            all.extend(found.into_iter().map(|equation| (path.clone(), equation)));
+        }
+    }
+    for chapter in
+        std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("src/guide")).unwrap()
+    {
+        let path = chapter.unwrap().path();
+        if path.extension().is_some_and(|extension| extension == "md") {
+            let found = equations(&std::fs::read_to_string(&path).unwrap());
+            let found = found.unwrap_or_else(|| panic!("{}: a lone $", path.display()));
             all.extend(found.into_iter().map(|equation| (path.clone(), equation)));
         }
     }

@@ -29,6 +29,7 @@ const ROOMS: Order = &[
     &["report"],
     &["command"],
     &["cli"],
+    &["guide"],
 ];
 
 /// The order of the wings of each room that has some. The room's own file, which shows them, comes after all.

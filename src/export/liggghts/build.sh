@@ -1,7 +1,7 @@
 #!/bin/sh
 # Builds the law `@NAME@` as a shared library for a LIGGGHTS that is already installed; nothing of LIGGGHTS is built.
 #
-#     ./build.sh LIGGGHTS_SRC [COMPILER]        LIGGGHTS_SRC: folder `src` of the source the program was built from
+#     sh build.sh LIGGGHTS_SRC [COMPILER]        LIGGGHTS_SRC: folder `src` of the source the program was built from
 #     LD_PRELOAD=./liblaw_liggghts.so liggghts -in in.script
 #
 # Debian: program `apt install liggghts libopenmpi-dev openmpi-bin g++`, source `apt-get source --download-only liggghts`.

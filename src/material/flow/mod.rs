@@ -33,7 +33,7 @@ pub const YIELD_STRENGTH: Constant = Constant {
     may_be_absent: false,
 };
 
-/// Flow stress $\sigma_y(\varepsilon_p, \Delta\varepsilon_p / \Delta t, \ldots)$ of a material point, in reference units.
+/// Flow stress $\sigma_y(\varepsilon_p, \Delta\varepsilon_p / \Delta t, ...)$ of a material point, in reference units.
 ///
 /// The strain passed is the accumulated equivalent plastic strain at the end of the step, the increment its growth in the
 /// step, `dt` the length of the step. Where `dt` is 0, a stress that grows with the rate has an infinite slope: nothing flows
@@ -55,7 +55,7 @@ pub trait FlowStress: Constants + Send + Sync + 'static {
     fn remember(&self, _increment: Lanes, _dt: f64, _work: Lanes, _memory: &mut Self::Memory) {}
 
     /// Length $\gamma$ of the radial return of a deviator of size `norm`: the root of
-    /// $\|s\| - k \gamma - \sqrt{2/3}\, \sigma_y(\varepsilon + \Delta, \Delta)$ with $\Delta = \sqrt{2/3}\, \gamma$ and k =
+    /// $|s| - k \gamma - \sqrt{2/3}\ \sigma_y(\varepsilon + \Delta, \Delta)$ with $\Delta = \sqrt{2/3}\ \gamma$ and k =
     /// `stiffness`. Newton's method from 0; a flow stress whose slope is infinite there solves for itself.
     #[inline(always)]
     fn length_of_return(

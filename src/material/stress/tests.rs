@@ -120,7 +120,7 @@ const DT: f64 = 1e-3;
 const VISCOSITY: f64 = 1e-3;
 
 flow_stress! {
-    /// $Y + \eta \dot\varepsilon$, remembering its plastic work: the least that knows rate and heat.
+    /// Y + eta times the strain rate, remembering its plastic work: the least that knows rate and heat.
     Viscous, "viscous" {
         strength: YIELD_STRENGTH,
     }

@@ -1,0 +1,403 @@
+//! References of the guide: every key a reader accepts and every column a writer writes has its line, and no other.
+
+use crate::program::{impactlaw, message};
+use impactlaw::bed::scene::Scene;
+use impactlaw::case::Case;
+use impactlaw::cost::accuracy::Line;
+use impactlaw::curve::{Summary, Tangential};
+use impactlaw::document::Document;
+use impactlaw::law::LawFile;
+use impactlaw::study::Study;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+/// A chapter of the guide.
+fn chapter(name: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("src/guide")
+        .join(name);
+    std::fs::read_to_string(path).unwrap()
+}
+
+/// A heading of a reference with the names its table explains.
+struct Section {
+    /// The heading above it.
+    chapter: String,
+    heading: String,
+    names: BTreeSet<String>,
+}
+
+/// Code spans of a line.
+fn spans(text: &str) -> Vec<&str> {
+    text.split('`').skip(1).step_by(2).collect()
+}
+
+/// Sections of a reference: each heading below `level`, with the names in the first cells of its table.
+fn sections(text: &str, level: &str) -> Vec<Section> {
+    let (mut all, mut chapter): (Vec<Section>, _) = (Vec::new(), String::new());
+    for line in text.lines() {
+        if let Some(heading) = line.strip_prefix("# ") {
+            chapter = heading.to_owned();
+        } else if let Some(heading) = line.strip_prefix(level) {
+            all.push(Section {
+                chapter: chapter.clone(),
+                heading: heading.to_owned(),
+                names: BTreeSet::new(),
+            });
+        } else if let (true, Some(section)) = (line.starts_with("| `"), all.last_mut()) {
+            let cell = line.split('|').nth(1).unwrap();
+            for name in spans(cell) {
+                let new = section.names.insert(name.to_owned());
+                assert!(new, "{}: {name} twice", section.heading);
+            }
+        }
+    }
+    all
+}
+
+/// What the reader of a kind of file says of a text it refuses.
+fn refusal(kind: &str, text: &str) -> String {
+    let document = Document::new(Path::new("file.toml"), text);
+    let error = match kind {
+        "Case file" => Case::from_document(&document).err(),
+        "Study file" => Study::from_document(&document).err(),
+        "Scene file" => Scene::parse(text, Path::new("file.toml")).err(),
+        "Law file" => LawFile::parse(&document).err(),
+        other => panic!("no reader of {other}"),
+    };
+    error
+        .unwrap_or_else(|| panic!("accepted: {text}"))
+        .to_string()
+}
+
+/// Names a reader says it would have taken instead of `wrong`.
+fn expected(message: &str, wrong: &str) -> BTreeSet<String> {
+    let (_, rest) = message
+        .split_once(&format!("`{wrong}`, "))
+        .unwrap_or_else(|| panic!("not about {wrong}: {message}"));
+    spans(rest).into_iter().map(str::to_owned).collect()
+}
+
+/// The TOML a heading stands for, and the path of the table it opens.
+fn opened(heading: &str) -> (String, String) {
+    let lines = spans(heading);
+    let mut tables = lines.iter().filter(|line| line.starts_with('['));
+    let path = tables
+        .next_back()
+        .map_or("", |line| line.trim_matches(['[', ']']));
+    (lines.join("\n"), path.to_owned())
+}
+
+/// Whether what a reader says of `true` where `key` is to be means that a table belongs there.
+fn is_table(kind: &str, opening: &str, key: &str) -> bool {
+    ["true", "[true]"].iter().any(|value| {
+        let said = refusal(kind, &format!("{opening}\n{key} = {value}\n"));
+        assert!(!said.contains("unknown field"), "{kind}: {said}");
+        let tables = ["struct", "a table", "a map", "tagged enum"];
+        tables
+            .iter()
+            .any(|table| said.contains(&format!("expected {table}")))
+            || said.contains("tagged enum")
+    })
+}
+
+#[test]
+fn every_key_of_every_table_has_its_line_and_no_other() {
+    let all = sections(&chapter("keys.md"), "### ");
+    for Section {
+        chapter,
+        heading,
+        names,
+    } in &all
+    {
+        let (opening, path) = opened(heading);
+        let said = refusal(chapter, &format!("{opening}\nzz = 0\n"));
+        assert_eq!(
+            *names,
+            expected(&said, "zz"),
+            "{chapter}, {heading}: {said}"
+        );
+        for key in names {
+            let below = if path.is_empty() {
+                key.clone()
+            } else {
+                format!("{path}.{key}")
+            };
+            let described = all.iter().any(|section| {
+                let (_, table) = opened(&section.heading);
+                section.chapter == *chapter && (table == below || table == format!("{below}.NAME"))
+            });
+            let wanted = is_table(chapter, &opening, key);
+            assert_eq!(
+                described, wanted,
+                "{chapter}, {heading}: keys of the table {key}"
+            );
+        }
+    }
+    let chapters: BTreeSet<&str> = all.iter().map(|section| &section.chapter[..]).collect();
+    assert_eq!(chapters.len(), 4);
+    assert!(all.len() > 60, "{}", all.len());
+}
+
+#[test]
+fn every_kind_of_stage_and_measure_has_its_heading_and_every_name_its_place() {
+    let all = sections(&chapter("keys.md"), "### ");
+    for table in ["stage", "measure"] {
+        let kinds: BTreeSet<String> = all
+            .iter()
+            .filter(|section| section.heading.starts_with(&format!("`[[{table}]]`")))
+            .map(|section| {
+                spans(&section.heading)[1]
+                    .split('"')
+                    .nth(1)
+                    .unwrap()
+                    .to_owned()
+            })
+            .collect();
+        let said = refusal("Scene file", &format!("[[{table}]]\nkind = \"zz\"\n"));
+        assert_eq!(kinds, expected(&said, "zz"), "{said}");
+    }
+    let chosen = [
+        ("Scene file", "[grains]", "insertion"),
+        ("Scene file", "[[body]]\n[body.free.joint]", "kind"),
+        ("Law file", "schema = 1", "form"),
+    ];
+    for (kind, opening, key) in chosen {
+        let said = refusal(kind, &format!("{opening}\n{key} = \"zz\"\n"));
+        let text = chapter("keys.md");
+        let line = text
+            .lines()
+            .find(|line| line.starts_with(&format!("| `{key}` | name |")))
+            .unwrap();
+        for name in expected(&said, "zz") {
+            let range = line.split('|').nth(3).unwrap();
+            assert!(range.contains(&format!("`\"{name}\"`")), "{name} in {line}");
+        }
+    }
+}
+
+/// Names in the table under each heading of the reference of columns, by the code spans of the heading.
+fn columns() -> BTreeMap<String, BTreeSet<String>> {
+    sections(&chapter("columns.md"), "## ")
+        .into_iter()
+        .map(|section| (section.heading.replace('`', ""), section.names))
+        .collect()
+}
+
+/// Keys of an impact's summary that a normal impact without incident lacks.
+const MAY_BE_ABSENT: [&str; 2] = ["tangential", "warnings"];
+/// Keys of an impact's summary that are no figures, and not in `results.csv`; in the order of the alphabet.
+const NO_FIGURES: [&str; 3] = ["particle", "tangential", "warnings"];
+
+/// Heading under which the columns of a file stand.
+fn heading(file: &Path) -> String {
+    let name = file.file_name().unwrap().to_string_lossy().into_owned();
+    let beds = file.iter().any(|part| part == "bed");
+    match &name[..] {
+        "summary.json" if beds => "summary.json of a bed".to_owned(),
+        "summary.json" => "summary.json of an impact".to_owned(),
+        "particle_compressed.csv" | "particle_rebound.csv" => {
+            "particle_compressed.csv, particle_rebound.csv".to_owned()
+        }
+        _ if name.starts_with("contacts_") => "contacts_NNNN.csv".to_owned(),
+        _ if name.starts_with("cost_V") => "cost_V*.csv".to_owned(),
+        _ => name,
+    }
+}
+
+/// Columns of CSV text; none of a file without rows.
+fn header(text: &str) -> BTreeSet<String> {
+    let line = text.lines().find(|line| !line.starts_with('#'));
+    line.map_or_else(BTreeSet::new, |line| {
+        line.split(',').map(str::to_owned).collect()
+    })
+}
+
+/// Keys of a JSON object.
+fn keys(text: &str) -> BTreeSet<String> {
+    let value: serde_json::Value = serde_json::from_str(text).unwrap();
+    value.as_object().unwrap().keys().cloned().collect()
+}
+
+fn files(folder: &Path, found: &mut Vec<PathBuf>) {
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let is = |name: &str| path.extension().is_some_and(|end| end == name);
+        if path.is_dir() {
+            files(&path, found);
+        } else if is("csv") || path.ends_with("summary.json") {
+            found.push(path);
+        }
+    }
+}
+
+/// That the columns of every file below `folder` stand in the reference, and no other; the headings that were met.
+pub fn assert_described(folder: &Path) -> BTreeSet<String> {
+    let (reference, mut found, mut met) = (columns(), Vec::new(), BTreeSet::new());
+    files(folder, &mut found);
+    for file in found {
+        let text = std::fs::read_to_string(&file).unwrap();
+        if header(&text).is_empty() {
+            continue;
+        }
+        let under = heading(&file);
+        let described = reference
+            .get(&under)
+            .unwrap_or_else(|| panic!("no heading {under} for {}", file.display()));
+        let impact = &reference["summary.json of an impact"];
+        let written: BTreeSet<String> = match &under[..] {
+            "summary.json of an impact" => {
+                let absent = MAY_BE_ABSENT.map(str::to_owned);
+                keys(&text).into_iter().chain(absent).collect()
+            }
+            "summary.json of a bed" => keys(&text),
+            "results.csv" => {
+                let all = header(&text);
+                let figures: BTreeSet<String> = all.intersection(impact).cloned().collect();
+                let left_out = impact.difference(&figures).map(String::as_str);
+                assert!(left_out.eq(NO_FIGURES), "{figures:?}");
+                all.difference(impact).cloned().collect()
+            }
+            _ => header(&text),
+        };
+        assert_eq!(*described, written, "{}", file.display());
+        met.insert(under);
+    }
+    met
+}
+
+const CASE: &str = "[particle]\nradius = \"250 um\"\n[material]\ndensity = \"8000 kg/m3\"\nyoung_modulus = \"100 GPa\"\n\
+    poisson_ratio = 0.35\nyield_strength = \"1.25 GPa\"\n[impact]\nvelocities = [\"10 m/s\", \"20 m/s\"]\n[accuracy]\n\
+    tolerance = 0.2\n[bed]\nscene = \"scene.toml\"\n";
+
+const SCENE: &str = "laws = [\"fitted\", \"hertz\"]\nseed = 1\ngravity = \"9.81 m/s2\"\n[material]\ndensity = \"8000 kg/m3\"\n\
+    young_modulus = \"100 GPa\"\npoisson_ratio = 0.35\nyield_strength = \"1.25 GPa\"\n[grains]\ncount = 8\n\
+    radius = \"250 um\"\nvelocity = [\"0 m/s\", \"0 m/s\", \"-20 m/s\"]\n[box]\nwidth = \"1.2 mm\"\ndepth = \"1.2 mm\"\n[[stage]]\nkind = \"run\"\nsteps = 600\n[output]\n\
+    rows = 4\nframes = 4\nfilm = 0\ncontacts = true\n";
+
+const STUDY: &str = "[particle]\nradius = [\"250 um\"]\n[material]\ndensity = [\"8000 kg/m3\"]\nyoung_modulus = [\"100 GPa\"]\n\
+    young_over_yield = [80]\npoisson_ratio = [0.35]\n[impact]\nvelocities = [\"20 m/s\"]\n[accuracy]\ntolerance = 0.2\n";
+
+/// What the program prints for `arguments`.
+fn printed(folder: &Path, arguments: &[&str]) -> String {
+    let output = impactlaw(folder, arguments);
+    assert!(output.status.code() != Some(2), "{}", message(&output));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+#[test]
+fn every_column_of_every_file_has_its_line_and_no_other() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    for (name, text) in [
+        ("case.toml", CASE),
+        ("scene.toml", SCENE),
+        ("s.toml", STUDY),
+    ] {
+        std::fs::write(here.join(name), text).unwrap();
+    }
+    printed(here, &["run", "case.toml", "--out", "out"]);
+    printed(
+        here,
+        &["study", "s.toml", "--out", "study", "--refine", "1"],
+    );
+    let met = assert_described(here);
+
+    let reference = columns();
+    let theory = ["theory", "hertz", "case.toml"];
+    let law = [
+        "law",
+        "eval",
+        "out/law.toml",
+        "--body",
+        "250 um",
+        "--displacements",
+        "1 um",
+    ];
+    let tables = [
+        (
+            "Output of theory --displacements",
+            printed(here, &[&theory[..], &["--displacements", "1 um"]].concat()),
+        ),
+        (
+            "Output of theory --velocities",
+            printed(here, &[&theory[..], &["--velocities", "1 m/s"]].concat()),
+        ),
+        ("Output of law eval", printed(here, &law)),
+    ];
+    for (heading, text) in &tables {
+        assert_eq!(reference[*heading], header(text), "{heading}");
+    }
+    printed(
+        here,
+        &[
+            "export",
+            "out/law.toml",
+            "--to",
+            "table",
+            "--out",
+            "exported",
+        ],
+    );
+    let table = std::fs::read_to_string(here.join("exported/case.csv")).unwrap();
+    assert_eq!(reference["NAME.csv of target table"], header(&table));
+
+    // the rest: a part of a summary, and the files of `cost`, which tests/cli/cost.rs writes
+    let text = std::fs::read_to_string(here.join("out/impact_V10/summary.json")).unwrap();
+    let mut summary: Summary = serde_json::from_str(&text).unwrap();
+    summary.tangential = Some(Tangential {
+        incident_velocity_m_s: 1.0,
+        velocity_m_s: 1.0,
+        restitution: Some(1.0),
+        angular_velocity_rad_s: 1.0,
+        impulse_ratio: 1.0,
+    });
+    let value = serde_json::to_value(&summary).unwrap();
+    assert_eq!(
+        reference["tangential of summary.json"],
+        keys(&value["tangential"].to_string())
+    );
+    assert_eq!(
+        reference["particle of summary.json"],
+        keys(&value["particle"].to_string())
+    );
+    let elsewhere = [
+        "particle of summary.json",
+        "tangential of summary.json",
+        "NAME.csv of target table",
+        "cost_V*.csv",
+        "cost_accuracy.csv",
+    ];
+    let met: BTreeSet<String> = met
+        .into_iter()
+        .chain(tables.iter().map(|(heading, _)| (*heading).to_owned()))
+        .chain(elsewhere.map(str::to_owned))
+        .collect();
+    assert_eq!(reference.into_keys().collect::<BTreeSet<_>>(), met);
+}
+
+#[test]
+fn the_table_of_equal_accuracy_has_a_line_for_every_column() {
+    let line = Line {
+        velocity_m_s: 1.0,
+        severity: None,
+        lattice: String::new(),
+        best_points: 1,
+        best_error: 1.0,
+        best_s: 1.0,
+        same_s: None,
+        same_ratio: None,
+        same_solid_s: None,
+        same_solid_ratio: None,
+        order: 1.0,
+        reached: true,
+        target_s: None,
+        planned_s: None,
+        planned_error: None,
+        target_ratio: None,
+    };
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    writer.serialize(&line).unwrap();
+    let text = String::from_utf8(writer.into_inner().unwrap()).unwrap();
+    assert_eq!(columns()["cost_accuracy.csv"], header(&text));
+}
