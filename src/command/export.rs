@@ -89,20 +89,23 @@ fn alone(law: &Portable, targets: &[Target], everything: bool) -> Result<Vec<Art
 
 /// Files of the contact of two materials.
 fn with(law: &Portable, other: &Portable, targets: &[Target]) -> Result<Vec<Artifact>> {
-    let mut artifacts = Vec::new();
-    for target in targets {
-        let Some(pair) = target.pair() else {
+    let pair = |target: &Target| {
+        target.pair().ok_or_else(|| {
             let able = Target::ALL.into_iter().filter(|able| able.pair().is_some());
             let names: Vec<_> = able.map(Target::name).collect();
-            return Err(Error::Argument {
+            Error::Argument {
                 argument: "--with".to_owned(),
                 found: format!("`--to {target}`"),
                 allowed: format!(
                     "is for target {}: the other targets hold one law",
                     names.join(", ")
                 ),
-            });
-        };
+            }
+        })
+    };
+    let pairs = targets.iter().map(pair).collect::<Result<Vec<_>>>()?;
+    let mut artifacts = Vec::new();
+    for pair in pairs {
         artifacts.extend(pair(law, other)?);
     }
     Ok(artifacts)

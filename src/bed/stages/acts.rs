@@ -20,8 +20,13 @@ fn after(now: f64, due: f64, interval: f64) -> f64 {
         return next;
     }
     let skipped = ((now - next) / interval).floor() + 1.0;
+    let next = next + skipped * interval;
     // an interval below the resolution of the clock, or none
-    (next + skipped * interval).max(now.next_up())
+    if next.is_finite() {
+        next.max(now.next_up())
+    } else {
+        now.next_up()
+    }
 }
 
 impl Run<'_> {

@@ -76,10 +76,11 @@ fn decrement(ratio: f64) -> f64 {
     if root == 0.0 {
         return 2.0;
     }
+    // from the root, for the inverse cosines of a number near 1 lose half their digits
     let angle = if ratio < 1.0 {
-        ratio.acos()
+        root.atan2(ratio)
     } else {
-        ratio.acosh()
+        root.asinh()
     };
     2.0 * ratio * angle / root
 }
