@@ -115,7 +115,7 @@ impl Context {
     /// Print what a verb found, which also stands in its files; nothing with `-q`.
     ///
     /// # Errors
-    /// As [`print`].
+    /// As [`print()`].
     pub fn say(&self, text: &str) -> Result<()> {
         match self.quiet {
             true => Ok(()),

@@ -69,7 +69,7 @@ impl Command for TheoryArgs {
 /// The CSV text for a case that has been read.
 ///
 /// # Errors
-/// As [`run`], the case file apart.
+/// As [`Command::run`], the case file apart.
 pub fn table(args: &TheoryArgs, case: &Case) -> Result<String> {
     match (args.displacements.is_empty(), args.velocities.is_empty()) {
         (false, _) => csv_text(&force_rows(args, case)?),

@@ -13,7 +13,7 @@ use rand_pcg::Pcg64;
 use rayon::prelude::*;
 
 /// Fewest runs of a bootstrap. n runs make C(2n-1, n) different resamples: 10 of three runs, 35 of four, 126 of five; fewer
-/// than 1/[`TAIL`] have no tails to cut off.
+/// than 1/`TAIL` have no tails to cut off.
 pub const LEAST_RUNS: usize = 5;
 /// Refits of the bootstrap; each resamples the runs with replacement.
 pub const RESAMPLES: usize = 100;
