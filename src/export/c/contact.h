@@ -66,7 +66,7 @@ static inline double law_decrement(double ratio)
 {
     const double root = sqrt(fabs((1.0 - ratio) * (1.0 + ratio)));
     if (root == 0.0) return 2.0;
-    return 2.0 * ratio * (ratio < 1.0 ? acos(ratio) : acosh(ratio)) / root;
+    return 2.0 * ratio * (ratio < 1.0 ? atan2(root, ratio) : asinh(root)) / root;
 }
 
 /* The damping ratio zeta of a restitution e in (0, 1]; by bisection, so once, not in a loop over contacts. */
