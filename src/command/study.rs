@@ -327,7 +327,7 @@ fn table(
     Ok(text)
 }
 
-/// Keys and values of `summary.json` in its order (`velocity_m_s` first), but for `particle`; the status as one word, its reason after a colon.
+/// Keys and values of `summary.json` in its order (`velocity_m_s` first), but for `particle` and `warnings`; the status as one word, its reason after a colon.
 fn figures(summary: &Summary) -> std::result::Result<Vec<(String, String)>, serde_json::Error> {
     let text = serde_json::to_string_pretty(summary)?;
     let value: serde_json::Value = serde_json::from_str(&text)?;
@@ -335,11 +335,9 @@ fn figures(summary: &Summary) -> std::result::Result<Vec<(String, String)>, serd
         line.strip_prefix("  \"")?
             .split_once("\":")
             .map(|(key, _)| key)
-            // a column of its own says what they are made of
-            .filter(|key| *key != "warnings")
+            // neither is a figure; whose impact it is, the case's own columns say
+            .filter(|key| !["particle", "warnings"].contains(key))
     });
-    // whose impact it is, the case's own columns say
-    let keys = keys.filter(|key| *key != "particle");
     Ok(keys
         .map(|key| {
             let cell = match &value[key] {
