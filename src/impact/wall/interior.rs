@@ -5,7 +5,7 @@
 //! or not. A point joins the problem in the step in which it would pass the wall though the surface is held.
 
 use crate::impact::wall::complementarity::{Complementarity, Unknown};
-use crate::impact::wall::meridian::ContactPoint;
+use crate::impact::wall::contact_point::ContactPoint;
 use crate::tape::{Keep, Tape};
 use std::sync::Arc;
 

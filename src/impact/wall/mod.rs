@@ -2,6 +2,7 @@
 
 pub mod banded;
 pub mod complementarity;
+pub mod contact_point;
 pub mod interior;
 pub mod meridian;
 pub mod surface;
