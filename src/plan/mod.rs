@@ -274,8 +274,8 @@ fn geometry(case: &Case) -> Geometry {
 /// Grid in three dimensions: coarser for the same tolerance, because the edge of the contact crosses cells at all angles and
 /// the staircase averages out. Fine cells also cover the way that the contact rolls over the surface at the normal `velocity`.
 ///
-/// A sphere that ends up rolling turns with $\omega R = 5/7\, V_t$, one that slides to the end with
-/// $5/2\, \mu (1 + e) V_n \le 5 \mu V_n$; it gains that evenly about the middle of the contact, so it rolls half of it
+/// A sphere that ends up rolling turns with $\omega R = 5/7\ V_t$, one that slides to the end with
+/// $5/2\ \mu (1 + e) V_n \le 5 \mu V_n$; it gains that evenly about the middle of the contact, so it rolls half of it
 /// times the contact time.
 fn solid_grid(estimate: &Estimate, case: &Case, velocity: f64) -> Grid {
     let a = estimate.contact_radius;

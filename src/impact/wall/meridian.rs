@@ -1,6 +1,6 @@
 //! Contact of an axisymmetric body with a rigid frictionless plane: implicit, by Signorini's complementarity.
 //!
-//! At each surface point c the gap at the end of the step, $g_c + \Delta t\, v_c$, and the impulse $\lambda_c$ satisfy
+//! At each surface point c the gap at the end of the step, $g_c + \Delta t\ v_c$, and the impulse $\lambda_c$ satisfy
 //!
 //! $$ 0 \le \lambda_c \perp b_c + \sum_d W_{cd} \lambda_d \ge 0, \qquad
 //!    b_c = g_c / \Delta t + \sum_i N_{ci} v_i, \qquad W_{cd} = \sum_i N_{ci} N_{di} / m_i $$
