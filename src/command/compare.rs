@@ -56,10 +56,21 @@ impl Command for CompareArgs {
         let mut comparison = Comparison::new(&case.material, case.radius, &impacts);
         add_fitted(&mut comparison, &file)?;
         comparison.add_theories();
-        comparison.write(&out, &context.provenance(&case.hash))?;
+        write(&comparison, &out, &context.provenance(&case.hash))?;
         context.say(&comparison.summary_markdown())?;
         Ok(Verdict::Met)
     }
+}
+
+/// Write the comparison's files, and warn of what the theories in it leave out of the material.
+///
+/// # Errors
+/// As [`Comparison::write`].
+pub fn write(comparison: &Comparison, out: &Path, provenance: &str) -> Result<()> {
+    for sentence in comparison.left_out_by_theories() {
+        tracing::warn!("{sentence}");
+    }
+    comparison.write(out, provenance)
 }
 
 /// Add the law of a file: `fitted` in the form the file names, and `fitted-closed-form` or `fitted-spline` for the

@@ -97,7 +97,7 @@ fn stages(
     let mut comparison = Comparison::new(&case.material, case.radius, &impacts);
     compare::add_fitted(&mut comparison, &law)?;
     comparison.add_theories();
-    comparison.write(out, &provenance)?;
+    compare::write(&comparison, out, &provenance)?;
     let bed = scene
         .map(|scene| {
             bed::simulate(&scene, Some(&law), out, seed, impact::CHECKPOINT, context)
@@ -148,7 +148,11 @@ fn report(
         comparison: show::comparison(&results.comparison.markdown()),
         bed,
         references: show::references(&laws),
-        limits: show::limits(&results.law),
+        limits: [
+            show::limits(&results.law),
+            results.comparison.left_out_by_theories(),
+        ]
+        .concat(),
     }
     .write(out)
 }

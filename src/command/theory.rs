@@ -4,7 +4,7 @@ use super::{Command, Context, Verdict};
 use crate::case::Case;
 use crate::contact::rebound::rebound;
 use crate::contact::{LawVisitor, NormalLaw};
-use crate::theory::published::Publication;
+use crate::theory::published::{Publication, left_out};
 use crate::theory::{FORMULAS, Theory};
 use crate::unit::{self, Length, Velocity};
 use crate::{Error, Result};
@@ -61,6 +61,13 @@ impl Command for TheoryArgs {
     /// [`Case::read`] returns.
     fn run(&self, _context: &Context) -> Result<Verdict> {
         let case = Case::read(&self.case)?;
+        let publication = match formula(&self.model) {
+            Some(formula) => formula,
+            None => self.model.parse::<Theory>()?.publication(),
+        };
+        for sentence in left_out([publication], &case.material) {
+            tracing::warn!("{sentence}");
+        }
         super::print(&table(self, &case)?)?;
         Ok(Verdict::Met)
     }

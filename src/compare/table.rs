@@ -1,6 +1,7 @@
 //! Table: the comparison as Markdown that a person reads, best law first.
 
 use super::{Comparison, Row, SIMULATION};
+use crate::theory::published::left_out;
 use crate::theory::{self, FORMULAS, Theory};
 use std::fmt::Write;
 
@@ -25,6 +26,9 @@ impl Comparison {
             let speeds: Vec<_> = self.left_out.iter().map(|v| format!("{v} m/s")).collect();
             let _ = writeln!(text, "Left out (no rebound): {}.\n", speeds.join(", "));
         }
+        for sentence in self.left_out_by_theories() {
+            let _ = writeln!(text, "{sentence}\n");
+        }
         text.push_str("## All speeds (root mean square), best first\n\n");
         text.push_str(&self.summary_markdown());
         for impact in &self.impacts {
@@ -33,6 +37,18 @@ impl Comparison {
         self.write_formulas(&mut text);
         self.write_sources(&mut text);
         text
+    }
+
+    /// What of the material plays no part in the theories compared.
+    #[must_use]
+    pub fn left_out_by_theories(&self) -> Vec<String> {
+        let laws = self.laws();
+        let compared = |theory: &Theory| laws.contains(&theory.name());
+        let theories = Theory::ALL.into_iter().filter(compared);
+        left_out(
+            theories.map(Theory::publication).chain(FORMULAS),
+            &self.material,
+        )
     }
 
     /// Laws in the order they were added.

@@ -1,6 +1,6 @@
 //! Hertz: the elastic sphere on a rigid plane.
 
-use super::published::{Published, PublishedLaw, Restitution};
+use super::published::{ELASTIC, FlowConstants, Published, PublishedLaw, Restitution};
 use crate::contact::{NormalLaw, State};
 use crate::material::Material;
 
@@ -70,12 +70,12 @@ impl Published for Hertz {
     const SUMMARY: &'static str = "elastic";
     const PAPERS: &'static [&'static str] = &["Hertz1882", "Johnson1985"];
     const REFERENCE: &'static str = "Hertz 1882; Johnson 1985, section 4.2";
+    const FLOW: FlowConstants = ELASTIC;
     const RESTITUTION: Option<Restitution> = Some(|_, _| Some(1.0));
 }
 
 impl PublishedLaw for Hertz {
     type Law = Self;
-    const NEEDS_YIELD: bool = false;
 
     fn law(material: &Material) -> Option<Self> {
         Some(Self::of(material))

@@ -3,7 +3,7 @@
 
 use super::envelope::{Envelope, Unloading};
 use super::hertz::Hertz;
-use super::published::{Published, PublishedLaw, Restitution};
+use super::published::{FlowConstants, Published, PublishedLaw, Restitution, YIELD_STRENGTH_ONLY};
 use crate::contact::loading::work_between;
 use crate::material::Material;
 
@@ -101,12 +101,12 @@ impl Published for JacksonGreen {
     const SUMMARY: &'static str = "finite-element fit; unloading of Jackson, Green and Marghitu";
     const PAPERS: &'static [&'static str] = &["JacksonGreen2005", "JacksonGreenMarghitu2010"];
     const REFERENCE: &'static str = "Jackson and Green 2005, J. Tribol. 127, 343; unloading Jackson, Green and Marghitu 2010, Nonlinear Dyn. 60, 217";
+    const FLOW: FlowConstants = YIELD_STRENGTH_ONLY;
     const RESTITUTION: Option<Restitution> = Some(restitution);
 }
 
 impl PublishedLaw for JacksonGreen {
     type Law = Self;
-    const NEEDS_YIELD: bool = true;
 
     fn law(material: &Material) -> Option<Self> {
         Self::of(material)

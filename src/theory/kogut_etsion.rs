@@ -2,7 +2,7 @@
 
 use super::envelope::{Envelope, Unloading};
 use super::hertz::Hertz;
-use super::published::{Published, PublishedLaw, Restitution};
+use super::published::{FlowConstants, Published, PublishedLaw, Restitution, YIELD_STRENGTH_ONLY};
 use crate::material::Material;
 
 /// Hardness over the yield strength, H/Y.
@@ -86,12 +86,12 @@ impl Published for KogutEtsion {
         "finite-element power laws; unloading of Etsion, Kligerman and Kadin";
     const PAPERS: &'static [&'static str] = &["KogutEtsion2002", "EtsionKligermanKadin2005"];
     const REFERENCE: &'static str = "Kogut and Etsion 2002, J. Appl. Mech. 69, 657; unloading Etsion, Kligerman and Kadin 2005, Int. J. Solids Struct. 42, 3716 (unloading constants unverified)";
+    const FLOW: FlowConstants = YIELD_STRENGTH_ONLY;
     const RESTITUTION: Option<Restitution> = None;
 }
 
 impl PublishedLaw for KogutEtsion {
     type Law = Self;
-    const NEEDS_YIELD: bool = true;
 
     fn law(material: &Material) -> Option<Self> {
         Self::of(material)

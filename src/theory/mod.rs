@@ -47,14 +47,6 @@ macro_rules! theories {
                 }
             }
 
-            /// Whether it has no law of an elastic body.
-            #[must_use]
-            pub fn needs_yield(self) -> bool {
-                match self {
-                    $(Theory::$theory => <$law>::NEEDS_YIELD,)+
-                }
-            }
-
             /// Run `visitor` with this theory's law of `material`; `None` where there is none.
             fn visit_law<V: LawVisitor>(self, material: &Material, visitor: V) -> Option<V::Output> {
                 match self {
@@ -80,6 +72,12 @@ impl Theory {
     #[must_use]
     pub fn reference(self) -> &'static str {
         self.publication().reference
+    }
+
+    /// Whether it has no law of an elastic body.
+    #[must_use]
+    pub fn needs_yield(self) -> bool {
+        self.publication().needs_yield()
     }
 
     /// Place in [`Theory::ALL`].

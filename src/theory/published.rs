@@ -2,9 +2,21 @@
 
 use crate::contact::NormalLaw;
 use crate::material::Material;
+use crate::material::constant::Constant;
+use crate::material::flow::YIELD_STRENGTH;
+use crate::unit::engineering;
 
 /// Coefficient of restitution of a material at a speed (m/s) in closed form; `None` where it does not hold.
 pub type Restitution = fn(&Material, f64) -> Option<f64>;
+
+/// Constants of a flow stress that a model takes; those it does not name play no part in it.
+pub type FlowConstants = &'static [Constant];
+
+/// A model of elastic bodies.
+pub const ELASTIC: FlowConstants = &[];
+
+/// A model of perfectly plastic bodies.
+pub const YIELD_STRENGTH_ONLY: FlowConstants = &[YIELD_STRENGTH];
 
 /// A published model, as its file states it.
 pub trait Published {
@@ -16,6 +28,8 @@ pub trait Published {
     const PAPERS: &'static [&'static str];
     /// Papers, and what in the implementation is not theirs.
     const REFERENCE: &'static str;
+    /// What it takes of the flow stress.
+    const FLOW: FlowConstants;
     /// Restitution as the authors give it; `None` where they give none.
     const RESTITUTION: Option<Restitution>;
 }
@@ -24,10 +38,8 @@ pub trait Published {
 pub trait PublishedLaw: Published {
     /// Its law.
     type Law: NormalLaw;
-    /// Whether it has no law of an elastic body.
-    const NEEDS_YIELD: bool;
 
-    /// Law of a material; `None` where a yield strength is needed and there is none.
+    /// Law of a material; `None` where a constant of [`Published::FLOW`] is missing.
     fn law(material: &Material) -> Option<Self::Law>;
 }
 
@@ -42,6 +54,8 @@ pub struct Publication {
     pub papers: &'static [&'static str],
     /// [`Published::REFERENCE`].
     pub reference: &'static str,
+    /// [`Published::FLOW`].
+    pub flow: FlowConstants,
     /// [`Published::RESTITUTION`].
     pub restitution: Option<Restitution>,
 }
@@ -55,7 +69,56 @@ impl Publication {
             summary: P::SUMMARY,
             papers: P::PAPERS,
             reference: P::REFERENCE,
+            flow: P::FLOW,
             restitution: P::RESTITUTION,
         }
     }
+
+    /// Whether it has no law of an elastic body.
+    #[must_use]
+    pub fn needs_yield(&self) -> bool {
+        !self.flow.is_empty()
+    }
+
+    /// Constants with an effect in `material` that a model of yielding bodies does not know, with their values (SI).
+    #[must_use]
+    pub fn leaves_out(&self, material: &Material) -> Vec<(Constant, f64)> {
+        let constants = material.flow.filter(|_| self.needs_yield());
+        let unknown = |(constant, value): &(Constant, f64)| {
+            let acts = !constant.may_be_absent || *value != 0.0;
+            acts && !self.flow.contains(constant)
+        };
+        let constants = constants.map(|flow| flow.constants()).unwrap_or_default();
+        constants.into_iter().filter(unknown).collect()
+    }
+}
+
+/// What of the flow stress of `material` plays no part in which of `models`: a sentence for each constant.
+///
+/// ```
+/// use impactlaw::material::{Flow, Material};
+/// use impactlaw::theory::{Theory, published::left_out};
+/// let flow = Some(Flow::perfectly_plastic(1e9));
+/// let steel = Material { density: 7800.0, young_modulus: 2e11, poisson_ratio: 0.3, flow };
+/// assert!(left_out(Theory::ALL.map(Theory::publication), &steel).is_empty());
+/// ```
+#[must_use]
+pub fn left_out(models: impl IntoIterator<Item = Publication>, material: &Material) -> Vec<String> {
+    let mut left: Vec<(Constant, f64, Vec<&str>)> = Vec::new();
+    for model in models {
+        for (constant, value) in model.leaves_out(material) {
+            match left.iter_mut().find(|(known, ..)| *known == constant) {
+                Some((.., names)) => names.push(model.name),
+                None => left.push((constant, value, vec![model.name])),
+            }
+        }
+    }
+    let sentence = |(constant, value, names): (Constant, f64, Vec<&str>)| {
+        let value = engineering(value, constant.dimension.unit(), 4);
+        let (name, names) = (constant.name(), names.join(", "));
+        format!(
+            "The {name} ({value}) of this material plays no part in {names}: they were made for bodies without it."
+        )
+    };
+    left.into_iter().map(sentence).collect()
 }

@@ -10,6 +10,8 @@ use impactlaw::contact::NormalLaw;
 use impactlaw::contact::rebound::{rebound, trajectory};
 use impactlaw::curve::Particle;
 use impactlaw::curve::{Curve, Impact, Status};
+use impactlaw::material::flow::LinearHardening;
+use impactlaw::material::{Flow, Material};
 use impactlaw::theory::Theory;
 use impactlaw::theory::thornton::Thornton;
 use std::path::Path;
@@ -186,4 +188,33 @@ fn the_command_goes_from_impact_folders_and_a_law_file_to_both_files() {
     let csv = std::fs::read_to_string(impacts.join("compare.csv")).unwrap();
     let laws = Theory::ALL.len() + 2;
     assert_eq!(csv.lines().count(), 2 + 2 * (1 + laws), "{csv}");
+}
+
+#[test]
+fn hardening_that_no_theory_knows_is_said_and_perfect_plasticity_says_nothing() {
+    let law = Thornton::of(&MATERIAL, 1.6).unwrap();
+    let impacts = [made_by(&law, 10.0)];
+    let said = |material| {
+        let mut comparison = Comparison::new(&material, RADIUS, &impacts);
+        comparison.add_theories();
+        let sentences = comparison.left_out_by_theories();
+        let text = comparison.markdown();
+        assert!(sentences.iter().all(|sentence| text.contains(sentence)));
+        sentences
+    };
+    assert_eq!(said(MATERIAL), Vec::<String>::new());
+
+    let strength = MATERIAL.flow.unwrap().yield_strength();
+    let hardening = |modulus| Material {
+        flow: Some(Flow::LinearHardening(LinearHardening { strength, modulus })),
+        ..MATERIAL
+    };
+    assert_eq!(said(hardening(0.0)), Vec::<String>::new());
+    let [sentence] = &said(hardening(2e9))[..] else {
+        panic!("one constant is left out, in one sentence")
+    };
+    assert!(sentence.contains("hardening modulus (2 GPa)"), "{sentence}");
+    // Hertz is elastic by name: no yield strength either
+    let yielding = |theory: &Theory| theory.needs_yield() == sentence.contains(theory.name());
+    assert!(Theory::ALL.iter().all(yielding), "{sentence}");
 }
