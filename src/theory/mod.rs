@@ -10,6 +10,7 @@ pub mod jackson_green;
 pub mod johnson;
 pub mod kogut_etsion;
 pub mod luding;
+pub mod mdr;
 pub mod published;
 pub mod spring;
 pub mod thornton;
@@ -186,6 +187,7 @@ theories! {
         ThorntonHardness => thornton::AtHardness,
         KogutEtsion => kogut_etsion::KogutEtsion,
         JacksonGreen => jackson_green::JacksonGreen,
+        Mdr => mdr::Mdr,
         WaltonBraun => walton_braun::Constant,
         WaltonBraunVariable => walton_braun::Variable,
         Luding => luding::Luding,

@@ -6,13 +6,13 @@ use impactlaw::contact::NormalLaw;
 use impactlaw::contact::rebound::rebound;
 use impactlaw::export::check::{Check, Finding, NativeCheck};
 use impactlaw::export::native::eepa::Eepa;
-use impactlaw::export::native::mdr::Mdr;
 use impactlaw::export::native::thornton_ning::ThorntonNing;
 use impactlaw::export::native::{self, Code, Model};
 use impactlaw::export::source::portable::Portable;
 use impactlaw::law::file::HertzTable;
 use impactlaw::law::{Form, LawFile};
 use impactlaw::theory::hertz::Hertz;
+use impactlaw::theory::mdr::Mdr;
 use std::path::{Path, PathBuf};
 
 fn model(name: &str) -> PathBuf {

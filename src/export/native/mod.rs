@@ -6,7 +6,6 @@
 pub mod eepa;
 mod fit;
 mod lines;
-pub mod mdr;
 mod summary;
 pub mod thornton_ning;
 
@@ -20,10 +19,10 @@ use crate::export::source::dialect::{Dialect, PairExport};
 use crate::export::source::portable::Portable;
 use crate::law::Form;
 use crate::theory::luding::Luding;
+use crate::theory::mdr::Mdr;
 use crate::theory::walton_braun::WaltonBraun;
 use crate::{Error, Result};
 use eepa::Eepa;
-use mdr::Mdr;
 use thornton_ning::ThorntonNing;
 
 /// Flattening of the limit branch of Luding's model over the deepest impact: beyond the range, or it would stiffen within.
