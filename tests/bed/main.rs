@@ -16,6 +16,7 @@ mod mixture;
 mod oblique;
 mod oblique_elastic;
 mod oblique_published;
+mod outlets;
 mod page;
 mod periodic;
 #[path = "../support/program.rs"]
@@ -25,6 +26,7 @@ mod removal;
 mod restart;
 mod restitution;
 mod resume;
+mod same_bits;
 mod scene_run;
 mod scenes;
 mod seams;

@@ -110,7 +110,7 @@ document.body.append(out);
 })();</script>";
 
 /// The page as the visitor left it: what it told.
-fn visit(browser: &Path, page: &str) -> serde_json::Value {
+pub fn visit(browser: &Path, page: &str) -> serde_json::Value {
     let folder = tempfile::tempdir().unwrap();
     let visited = page
         .replace("<head>", &format!("<head>{LISTEN}"))

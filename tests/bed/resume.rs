@@ -55,7 +55,7 @@ dump = true
 "#;
 
 /// Runs the scene into `folder`; stops it, as a kill would, before row number `stop` of the run named.
-fn run(text: &str, folder: &Path, (name, stop): (&str, usize)) -> bool {
+pub fn run(text: &str, folder: &Path, (name, stop): (&str, usize)) -> bool {
     let scene = Scene::parse(text, Path::new("resume.toml")).unwrap();
     let rows = AtomicUsize::new(0);
     let options = Options {
@@ -75,10 +75,10 @@ fn run(text: &str, folder: &Path, (name, stop): (&str, usize)) -> bool {
 }
 
 /// Never stopped.
-const WHOLE: (&str, usize) = ("", 0);
+pub const WHOLE: (&str, usize) = ("", 0);
 
 /// All files by their path in `folder`; a wall time may differ.
-fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+pub fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let mut found = BTreeMap::new();
     let mut folders = vec![folder.to_owned()];
     while let Some(inside) = folders.pop() {

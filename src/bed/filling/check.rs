@@ -5,7 +5,7 @@ use super::lattice::{Source, lattice, random_of};
 use super::space::Space;
 use crate::Result;
 use crate::bed::scene::region::Region;
-use crate::bed::scene::{Insertion, Scene, Stage};
+use crate::bed::scene::{Insertion, Outlet, Scene, Stage};
 use crate::dem::bodies::Mobility;
 use crate::dem::bodies::machine::Machine;
 use crate::dem::grains::neighbours::HalfList;
@@ -90,6 +90,25 @@ pub fn check_overlaps(scene: &Scene, grains: &Grains, groups: &[usize]) -> Resul
     Err(scene
         .document
         .reject(&format!("{}.region", second.key), allowed))
+}
+
+/// That no grain is in an outlet from the start; `groups` are those of the grains.
+///
+/// # Errors
+/// [`crate::Error::Value`] naming outlet and group.
+pub fn check_outlets(scene: &Scene, grains: &Grains, groups: &[usize]) -> Result<()> {
+    for (sphere, &group) in grains.spheres.iter().zip(groups) {
+        let centre = grains.room.inside(sphere.centre);
+        let takes = |outlet: &Outlet| outlet.mouth.takes(centre);
+        if let Some(index) = scene.outlets.iter().position(takes) {
+            let allowed = format!(
+                "must stay clear of the grains of the group \"{}\": they would leave as they come in",
+                scene.groups[group].name
+            );
+            return Err(scene.document.reject(&format!("outlet[{index}]"), allowed));
+        }
+    }
+    Ok(())
 }
 
 /// That no grain comes in where a body is: none that is there from the start, and none of the first lattice of a group

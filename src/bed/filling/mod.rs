@@ -1,7 +1,8 @@
-//! Insertion: where grains come in: on lattices in a region, none overlapping, refused before the first step if they
+//! Insertion: where grains come in and leave: on lattices in a region, none overlapping, refused before the first step if they
 //! would not fit.
 
 mod check;
+pub mod drain;
 pub mod feed;
 pub mod lattice;
 mod memory;
@@ -9,7 +10,7 @@ mod space;
 
 pub use self::check::check_bodies;
 
-use self::check::{check_overlaps, check_regions};
+use self::check::{check_outlets, check_overlaps, check_regions};
 use self::feed::Feed;
 use self::lattice::SPACING;
 use crate::Result;
@@ -56,6 +57,7 @@ pub fn insert(scene: &Scene, seed: u64) -> Result<(Grains, Feed, Room)> {
         newcomers.iter().for_each(|one| one.join(&mut grains));
     }
     check_overlaps(scene, &grains, &groups)?;
+    check_outlets(scene, &grains, &groups)?;
     let top = grains
         .spheres
         .iter()

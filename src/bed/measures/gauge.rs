@@ -4,6 +4,7 @@ use super::flow::{below, beverloo, bulk_density, steady_rate};
 use super::repose::{Slope, drum, heap};
 use crate::bed::scene::{Measure, Orifice, Plane};
 use crate::dem::dynamics::any::AnyBed;
+use crate::dem::grains::Sphere;
 use crate::tape::{Keep, Tape, keep_fields};
 use serde::Serialize;
 
@@ -11,7 +12,7 @@ use serde::Serialize;
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Finding {
     /// What it is.
-    pub name: &'static str,
+    pub name: String,
     /// Value, SI or as the unit says.
     pub value: f64,
     /// Unit.
@@ -45,6 +46,8 @@ pub struct Flow {
     last: f64,
     /// Grains that have gone through.
     grains: usize,
+    /// Grains and mass (kg) taken out below the plane.
+    gone: (usize, f64),
     /// Bulk density of the filling before the first grain left, kg/m3.
     bulk: f64,
 }
@@ -63,7 +66,7 @@ pub struct Plunge {
     peak: [f64; 2],
 }
 
-keep_fields!(Flow: series, first, last, grains, bulk; rebuilt plane);
+keep_fields!(Flow: series, first, last, grains, gone, bulk; rebuilt plane);
 keep_fields!(Plunge: touched, speed, depth, peak; rebuilt body);
 
 /// What a gauge has read; what it is follows from the scene.
@@ -100,6 +103,7 @@ impl Gauge {
                 first: None,
                 last: 0.0,
                 grains: 0,
+                gone: (0, 0.0),
                 bulk: 0.0,
             }),
             Measure::Plunge { body } => Gauge::Plunge(Plunge {
@@ -131,6 +135,16 @@ impl Gauge {
         }
     }
 
+    /// A grain of a mass (kg) has left through an outlet.
+    pub fn left(&mut self, sphere: &Sphere, mass: f64) {
+        if let Gauge::Flow(flow) = self
+            && sphere.centre.z < flow.plane.height
+        {
+            flow.gone.0 += 1;
+            flow.gone.1 += mass;
+        }
+    }
+
     /// Whether a flow has begun and nothing has gone through for `time` (s).
     #[must_use]
     pub fn flow_ended(&self, now: f64, time: f64) -> bool {
@@ -152,9 +166,15 @@ impl Gauge {
     }
 }
 
-fn finding(name: &'static str, value: f64, unit: &'static str, note: impl Into<String>) -> Finding {
+/// A figure with how it was found.
+pub(in crate::bed) fn finding(
+    name: impl Into<String>,
+    value: f64,
+    unit: &'static str,
+    note: impl Into<String>,
+) -> Finding {
     Finding {
-        name,
+        name: name.into(),
         value,
         unit,
         note: note.into(),
@@ -205,6 +225,7 @@ impl Flow {
     fn read(&mut self, bed: &dyn AnyBed) {
         let (grains, now) = (bed.grains(), bed.clock().1);
         let (count, mass) = below(grains, self.plane.height);
+        let (count, mass) = (count + self.gone.0, mass + self.gone.1);
         let (before, first) = *self.first.get_or_insert((count, mass));
         let passed = count.saturating_sub(before);
         if passed > self.grains {

@@ -69,7 +69,17 @@ pub struct Row {
     /// Work done by raising the stiffness.
     #[serde(rename = "stiffening_work_J")]
     pub stiffening_work_j: f64,
-    /// Energy present and dissipated less work done, minus the same at the start.
+    /// Grains that have left through outlets.
+    pub outlet_grains: usize,
+    /// Their mass.
+    pub outlet_mass_kg: f64,
+    /// Mass that leaves in a time, mean since the row before.
+    pub outlet_rate_kg_s: f64,
+    /// Energy that left with them: of motion, in gravity, and held in their contacts.
+    #[serde(rename = "outlet_J")]
+    pub outlet_j: f64,
+    /// Energy present and dissipated less work done, minus the same at the start; what grains brought and took is accounted
+    /// for.
     #[serde(rename = "imbalance_J")]
     pub imbalance_j: f64,
     /// Dissipated by each effect; its columns stand behind the others.
@@ -105,6 +115,31 @@ pub struct Progress {
 }
 keep_fields!(Progress: stage, piston_speed, seated_height, first_balance);
 
+/// What has left through outlets, and what had when the row before was taken.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Left {
+    /// Grains.
+    pub grains: usize,
+    /// Mass, kg.
+    pub mass: f64,
+    /// Energy, J.
+    pub energy: f64,
+    /// Time (s), mass (kg) and rate (kg/s) of the row before.
+    pub before: [f64; 3],
+}
+
+impl Left {
+    /// Mean rate (kg/s) since the row before; that of the row itself at the same instant.
+    fn rate(&self, now: f64) -> f64 {
+        let [time, mass, rate] = self.before;
+        if now > time {
+            (self.mass - mass) / (now - time)
+        } else {
+            rate
+        }
+    }
+}
+
 impl View<'_> {
     /// Stress on the piston, Pa.
     #[must_use]
@@ -130,21 +165,26 @@ impl View<'_> {
         packing: &Packing,
         energies: &Energies,
         progress: &Progress,
+        left: &Left,
     ) -> Row {
         let (dt, time, step) = bed.clock();
         let stress = self.stress(bed);
         let height = if progress.piston_speed > 0.0 {
             self.face(bed)
+        } else if bed.grains().is_empty() {
+            0.0
         } else {
             packing.top
         };
+        // without a grain there is no height, and nothing per volume
+        let per = |value: f64, whole: f64| if whole == 0.0 { 0.0 } else { value / whole };
         let volume = self.room.area() * height;
         let sides = 2.0 * (self.room.width + self.room.depth) * height;
         let lateral = |name, axis: usize| {
             let wall = bed.machine().find(name);
             wall.map_or(0.0, |wall| bed.force_on(wall)[axis].abs())
         };
-        let rate = progress.piston_speed / height;
+        let rate = per(progress.piston_speed, height);
         Row {
             stage: progress.stage.clone(),
             time_s: time,
@@ -155,14 +195,13 @@ impl View<'_> {
                 .seated_height
                 .map_or(0.0, |seated| (seated - height) / seated),
             stress_pa: stress,
-            lateral_stress_pa: (lateral("left", 0)
-                + lateral("right", 0)
-                + lateral("front", 1)
-                + lateral("back", 1))
-                / sides,
-            virial_stress_pa: packing.virial[(2, 2)] / volume,
+            lateral_stress_pa: per(
+                lateral("left", 0) + lateral("right", 0) + lateral("front", 1) + lateral("back", 1),
+                sides,
+            ),
+            virial_stress_pa: per(packing.virial[(2, 2)], volume),
             coordination: packing.coordination,
-            solid_fraction: self.grain_volume / volume,
+            solid_fraction: per(self.grain_volume, volume),
             max_overlap_ratio: packing.max_overlap_ratio,
             beyond_validity: packing.beyond_validity,
             max_speed_m_s: packing.max_speed,
@@ -178,6 +217,10 @@ impl View<'_> {
             plastic_j: energies.plastic,
             driven_work_j: energies.driven,
             stiffening_work_j: energies.stiffening,
+            outlet_grains: left.grains,
+            outlet_mass_kg: left.mass,
+            outlet_rate_kg_s: left.rate(time),
+            outlet_j: left.energy,
             imbalance_j: energies.balance() - progress.first_balance,
             losses: energies.losses,
         }

@@ -30,6 +30,8 @@ pub struct Summary {
     pub lost_grains: usize,
     /// Largest number of free bodies seen outside it.
     pub lost_bodies: usize,
+    /// Grains that have left through outlets.
+    pub outlet_grains: usize,
     /// Largest overlap over diameter.
     pub max_overlap_ratio: f64,
     /// Largest number of contacts flattened beyond what the law's source supports.
@@ -72,6 +74,8 @@ pub struct Counts {
     pub lost: usize,
     /// Free bodies outside.
     pub lost_bodies: usize,
+    /// Grains that have left through outlets.
+    pub outlet_grains: usize,
     /// Contacts beyond the law's validity.
     pub beyond_validity: usize,
     /// Largest overlap over diameter.
@@ -103,6 +107,7 @@ impl Summary {
             energy_closure,
             lost_grains: counts.lost,
             lost_bodies: counts.lost_bodies,
+            outlet_grains: counts.outlet_grains,
             max_overlap_ratio: counts.max_overlap_ratio,
             beyond_validity: counts.beyond_validity,
             max_stress_pa: peak.map_or(0.0, |r| r.stress_pa),

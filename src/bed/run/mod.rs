@@ -6,7 +6,9 @@ mod watch;
 
 use self::assembly::{Recipe, Start, assemble, elastic, laws};
 use self::watch::Watch;
+use crate::bed::filling::drain::Drain;
 use crate::bed::filling::{check_bodies, insert};
+use crate::bed::measures::gauge::finding;
 use crate::bed::measures::series::{self, CLOSURE, Row};
 use crate::bed::record::Record;
 use crate::bed::record::oedometer;
@@ -161,6 +163,7 @@ fn parts(scene: &Scene, start: &Start) -> Result<Parts> {
     }
     let mut grains = start.grains.clone();
     grains.plastic.fill(0.0);
+    grains.plastic_gone = 0.0;
     Ok(Parts {
         grains,
         machine,
@@ -203,8 +206,9 @@ pub(in crate::bed) fn pack(scene: &Scene, start: &mut Start, options: &Options) 
     );
     let checkpoint = checkpoint("packing", options);
     let plan = format!("{} {:?} packing", scene.hash, options.seed);
-    let (terms, feed) = (Terms::of(scene), start.feed.clone());
-    let mut run = Run::new(bed, terms, start.room, feed, &scene.measures, &mut watch);
+    let terms = Terms::of(scene);
+    let flows = (start.feed.clone(), Drain::new(&scene.outlets));
+    let mut run = Run::new(bed, terms, start.room, flows, &scene.measures, &mut watch);
     let stages: Vec<&Stage> = scene.stages.iter().filter(|s| s.prepares()).collect();
     go(&mut run, &stages, &plan, checkpoint.as_ref())?;
     start.grains = run.bed.grains().clone();
@@ -233,8 +237,9 @@ fn under_law(
     let bed = assemble(&recipe, parts(scene, start)?)?;
     let mut watch = Watch::new(name, &folder(options, name), scene.output, options);
     let checkpoint = checkpoint(name, options);
-    let (terms, feed) = (Terms::of(scene), start.feed.clone());
-    let mut run = Run::new(bed, terms, start.room, feed, &scene.measures, &mut watch);
+    let terms = Terms::of(scene);
+    let flows = (start.feed.clone(), Drain::new(&scene.outlets));
+    let mut run = Run::new(bed, terms, start.room, flows, &scene.measures, &mut watch);
     let stages: Vec<&Stage> = scene.stages.iter().filter(|s| !s.prepares()).collect();
     go(&mut run, &stages, &plan, checkpoint.as_ref())?;
     let done = run.done();
@@ -304,6 +309,7 @@ fn finish(
         wall_s: run.seconds_before + began.elapsed().as_secs_f64(),
         lost: run.tally.lost,
         lost_bodies: run.tally.lost_bodies,
+        outlet_grains: run.drain.total().grains,
         beyond_validity: run.tally.beyond_validity,
         max_overlap_ratio: run.tally.max_overlap_ratio,
         contact_stiffness: softening,
@@ -315,7 +321,14 @@ fn finish(
         let gravity = scene.gravity.length();
         gauge.findings(run.bed.as_ref(), gravity, 2.0 * scene.radius())
     });
-    summary.findings = findings.collect();
+    let left = run.drain.by_outlet().flat_map(|(name, outflow)| {
+        let count = outflow.grains as f64;
+        [
+            finding(format!("grains out at {name}"), count, "", ""),
+            finding(format!("mass out at {name}"), outflow.mass, "kg", ""),
+        ]
+    });
+    summary.findings = findings.chain(left).collect();
     summary.warnings = warnings(&run);
     let folder = folder(options, name);
     series::write(&folder.join("bed.csv"), options.provenance, &run.rows)?;

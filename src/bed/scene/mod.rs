@@ -12,6 +12,7 @@ mod drive;
 mod group;
 mod material;
 mod measure;
+mod outlet;
 mod pair;
 mod settings;
 mod stage;
@@ -22,6 +23,7 @@ pub use container::Container;
 pub use group::{Amount, Group, Insertion};
 pub use material::{GrainMaterial, LawChoice, OWN};
 pub use measure::{Measure, Orifice, Plane};
+pub use outlet::{Mouth, Outlet};
 pub use pair::PairContact;
 pub use settings::{OutputTable, TimeStep};
 pub use stage::{Change, Duration, Move, RunStage, Stage, Until};
@@ -37,6 +39,7 @@ use container::BoxTable;
 use group::{GroupTable, check_groups};
 use material::{SceneMaterialTable, check_laws, check_materials};
 use measure::{MeasureTable, check_measures};
+use outlet::{OutletTable, Surroundings, check_outlets};
 use pair::check_pairs;
 use parry3d::math::Vector;
 use serde::Deserialize;
@@ -79,6 +82,8 @@ pub struct Scene {
     pub domain: Option<[Vector; 2]>,
     /// Bodies beside the box.
     pub bodies: Vec<Body>,
+    /// Where grains leave.
+    pub outlets: Vec<Outlet>,
     /// Time step.
     pub time: TimeStep,
     /// Stages, in order.
@@ -111,6 +116,8 @@ struct SceneFile {
     domain: Option<RegionTable>,
     #[serde(default)]
     body: Vec<BodyTable>,
+    #[serde(default)]
+    outlet: Vec<OutletTable>,
     #[serde(default)]
     time: TimeTable,
     stage: Vec<StageTable>,
@@ -157,6 +164,15 @@ impl Scene {
         };
         let stages = check_stages(document, file.stage, &cast)?;
         let container = check_box(document, file.container, &stages, &file.periodic)?;
+        let around = Surroundings {
+            groups: &groups,
+            smallest,
+            periodic: container.map_or([false; 3], |box_| {
+                let [x, y] = box_.periodic;
+                [x, y, false]
+            }),
+        };
+        let outlets = check_outlets(document, file.outlet, &around)?;
         let scene = Scene {
             name: document.name(),
             hash: hash(document, &files),
@@ -174,6 +190,7 @@ impl Scene {
                 None => None,
             },
             bodies,
+            outlets,
             time: file.time.check(document)?,
             stages,
             measures: check_measures(document, file.measure, &cast.bodies)?,
@@ -249,11 +266,16 @@ impl Scene {
         bodies
     }
 
-    /// Block around the bodies that have an end and the regions grains come in through: two corners, m.
+    /// Block around the bodies that have an end and the regions grains come in and leave through: two corners, m.
     #[must_use]
     pub fn extent(&self) -> [Vector; 2] {
         let regions = self.groups.iter().filter_map(|group| group.region);
         let bodies = self.bodies.iter().filter_map(Body::corners);
+        let mouths = self.outlets.iter().filter_map(|outlet| match outlet.mouth {
+            Mouth::Region(region) => Some(region),
+            Mouth::Beyond { .. } => None,
+        });
+        let regions = regions.chain(mouths);
         let corners = regions.map(|region| region.corners()).chain(bodies);
         corners.fold([Vector::MAX, Vector::MIN], |[low, high], [below, above]| {
             [low.min(below), high.max(above)]

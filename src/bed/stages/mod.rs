@@ -4,9 +4,10 @@ pub mod acts;
 pub mod time_step;
 
 use self::time_step::Limits;
+use crate::bed::filling::drain::Drain;
 use crate::bed::filling::feed::Feed;
 use crate::bed::measures::gauge::Gauge;
-use crate::bed::measures::series::{Progress, Row, View};
+use crate::bed::measures::series::{Left, Progress, Row, View};
 use crate::bed::scene::{Measure, Scene, Stage};
 use crate::dem::bodies::enclosure::{PISTON, Room};
 use crate::dem::dynamics::any::AnyBed;
@@ -130,6 +131,8 @@ pub struct Run<'a> {
     pub tally: Tally,
     /// Grains to come.
     pub feed: Feed,
+    /// Grains that have left.
+    pub drain: Drain,
     /// Measures under way.
     pub gauges: Box<[Gauge]>,
     pub(in crate::bed) terms: Terms,
@@ -143,7 +146,7 @@ pub struct Run<'a> {
     ended: usize,
     keeper: Option<Keeper<'a>>,
 }
-keep_fields!(impl [] Run<'_>: bed, rows, tally, feed, gauges, observer, progress, place, started, softening,
+keep_fields!(impl [] Run<'_>: bed, rows, tally, feed, drain, gauges, observer, progress, place, started, softening,
     ended; rebuilt terms, room, keeper);
 
 /// What a run leaves when its stages have ended.
@@ -156,6 +159,8 @@ pub struct Done {
     pub tally: Tally,
     /// Grains that have not come in.
     pub feed: Feed,
+    /// Grains that have left.
+    pub drain: Drain,
     /// All measures.
     pub gauges: Box<[Gauge]>,
     /// Seconds the run took before it was resumed.
@@ -169,7 +174,7 @@ impl<'a> Run<'a> {
         bed: Box<dyn AnyBed>,
         terms: Terms,
         room: Room,
-        feed: Feed,
+        (feed, drain): (Feed, Drain),
         measures: &[Measure],
         observer: &'a mut dyn Observer,
     ) -> Self {
@@ -178,6 +183,7 @@ impl<'a> Run<'a> {
             rows: Vec::new(),
             tally: Tally::default(),
             feed,
+            drain,
             gauges: measures.iter().map(Gauge::new).collect(),
             softening: terms.softening,
             terms,
@@ -212,6 +218,7 @@ impl<'a> Run<'a> {
             rows: self.rows,
             tally: self.tally,
             feed: self.feed,
+            drain: self.drain,
             gauges: self.gauges,
         }
     }
@@ -289,6 +296,7 @@ impl<'a> Run<'a> {
         if !check {
             return Ok(None);
         }
+        self.let_out()?;
         let packing = self.bed.packing();
         self.place.next_check = self.step() + self.until_next_check(&packing);
         self.set_dt(&packing)?;
@@ -346,6 +354,23 @@ impl<'a> Run<'a> {
         self.bed.join(&newcomers);
     }
 
+    /// Takes out the grains that have come to an outlet; the energy that leaves with them is booked.
+    fn let_out(&mut self) -> Result<()> {
+        let gauges = &mut self.gauges;
+        let gone = self.drain.due(self.bed.grains(), |sphere, mass| {
+            gauges.iter_mut().for_each(|gauge| gauge.left(sphere, mass));
+        });
+        if gone.is_empty() {
+            return Ok(());
+        }
+        let before = self.bed.energies().balance();
+        self.bed.let_go(&gone)?;
+        let left = before - self.bed.energies().balance();
+        self.drain.energy += left;
+        self.progress.first_balance -= left;
+        Ok(())
+    }
+
     /// Changes bodies from outside; the energy this brings in or takes away is not the bed's imbalance.
     pub(in crate::bed) fn intervene(&mut self, change: impl FnOnce(&mut dyn AnyBed)) {
         let before = self.bed.energies().balance();
@@ -380,9 +405,19 @@ impl<'a> Run<'a> {
 
     pub(in crate::bed) fn record(&mut self) -> Result<()> {
         let (packing, energies) = (self.bed.packing(), self.bed.energies());
-        let row = self
-            .view()
-            .row(self.bed.as_ref(), &packing, &energies, &self.progress);
+        let total = self.drain.total();
+        let before = self.rows.last().map_or([self.time(), 0.0, 0.0], |row| {
+            [row.time_s, row.outlet_mass_kg, row.outlet_rate_kg_s]
+        });
+        let left = Left {
+            grains: total.grains,
+            mass: total.mass,
+            energy: self.drain.energy,
+            before,
+        };
+        let bed = self.bed.as_ref();
+        let view = self.view();
+        let row = view.row(bed, &packing, &energies, &self.progress, &left);
         self.observer.row(self.bed.as_ref(), &row)?;
         self.rows.push(row);
         Ok(())

@@ -13,8 +13,12 @@ pub struct Frame {
     pub time: f64,
     /// Stage.
     pub stage: String,
+    /// Names of the grains.
+    pub ids: Vec<u32>,
     /// Centres, m.
     pub centres: Vec<[f32; 3]>,
+    /// Radii, m.
+    pub radii: Vec<f32>,
     /// Speeds, m/s.
     pub speed: Vec<f32>,
     /// Energy dissipated by plastic flow in the contacts of each grain, J.
@@ -26,7 +30,7 @@ pub struct Frame {
     /// Bodies that have been taken out.
     pub gone: Vec<usize>,
 }
-keep_fields!(Frame: time, stage, centres, speed, plastic, squeeze, poses, gone);
+keep_fields!(Frame: time, stage, ids, centres, radii, speed, plastic, squeeze, poses, gone);
 
 impl Frame {
     /// The bed as it is.
@@ -41,6 +45,8 @@ impl Frame {
         Self {
             time: bed.clock().1,
             stage: stage.to_owned(),
+            ids: order.iter().map(|&i| grains.ids[i]).collect(),
+            radii: pick(&|i| grains.spheres[i].radius),
             centres: order
                 .iter()
                 .map(|&i| single(grains.spheres[i].centre))
@@ -69,8 +75,10 @@ impl Frame {
 pub struct Film {
     folder: PathBuf,
     count: usize,
+    /// Most grains in a frame.
+    most: usize,
 }
-keep_fields!(Film: count; rebuilt folder);
+keep_fields!(Film: count, most; rebuilt folder);
 
 impl Film {
     /// No frames yet; they will be files in `folder`.
@@ -79,6 +87,7 @@ impl Film {
         Self {
             folder: folder.to_owned(),
             count: 0,
+            most: 0,
         }
     }
 
@@ -95,6 +104,7 @@ impl Film {
         frame.save(&mut tape);
         write_atomic(&self.file(self.count), tape.as_bytes())?;
         self.count += 1;
+        self.most = self.most.max(frame.centres.len());
         Ok(())
     }
 
@@ -102,6 +112,12 @@ impl Film {
     #[must_use]
     pub fn len(&self) -> usize {
         self.count
+    }
+
+    /// Most grains in a frame.
+    #[must_use]
+    pub fn most_grains(&self) -> usize {
+        self.most
     }
 
     /// Whether there is no frame.

@@ -39,15 +39,14 @@ pub struct Sitter {
     pub free: bool,
 }
 
-/// Bodies of a run with what does not change from frame to frame, and the radii.
+/// Bodies of a run with what does not change from frame to frame.
 pub struct Cast {
     unit: f64,
-    radii: Vec<f64>,
     sitters: Vec<Sitter>,
 }
 
 impl Cast {
-    /// Bodies and radii of a bed.
+    /// Bodies of a bed.
     #[must_use]
     pub fn of(bed: &dyn AnyBed) -> Self {
         let (grains, machine) = (bed.grains(), bed.machine());
@@ -55,13 +54,6 @@ impl Cast {
             radius if radius > 0.0 => radius,
             _ => machine.unit,
         };
-        let mut radii: Vec<(u32, f64)> = grains
-            .ids
-            .iter()
-            .zip(&grains.spheres)
-            .map(|(&id, sphere)| (id, sphere.radius / unit))
-            .collect();
-        radii.sort_unstable_by_key(|&(id, _)| id);
         let sitters = machine.bodies().iter().zip(&machine.surfaces);
         let sitters = sitters.filter_map(|(body, surface)| {
             Some(Sitter {
@@ -73,7 +65,6 @@ impl Cast {
         });
         Self {
             unit,
-            radii: radii.into_iter().map(|(_, radius)| radius).collect(),
             sitters: sitters.collect(),
         }
     }
@@ -97,12 +88,7 @@ impl Cast {
                 .iter()
                 .map(|c| Vector::from(c.map(length)))
                 .collect(),
-            radii: self
-                .radii
-                .iter()
-                .copied()
-                .take(frame.centres.len())
-                .collect(),
+            radii: frame.radii.iter().map(|&radius| length(radius)).collect(),
             squeeze: wide(&frame.squeeze),
             plastic: wide(&frame.plastic),
             bodies: there

@@ -1,6 +1,7 @@
 //! Contacts, each with its own history: pairs of grains, grains on surfaces.
 
 mod crowd;
+mod departure;
 pub(crate) mod family;
 mod member;
 pub mod pairs;

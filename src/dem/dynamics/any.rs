@@ -29,6 +29,11 @@ pub trait AnyBed: Send + Keep {
     fn list_again(&mut self);
     /// See [`Bed::take_out`].
     fn take_out(&mut self, body: usize);
+    /// See [`Bed::let_go`].
+    ///
+    /// # Errors
+    /// As there.
+    fn let_go(&mut self, gone: &[u32]) -> Result<()>;
     /// Lets grains come in; their neighbours are listed anew.
     fn join(&mut self, newcomers: &[Newcomer]);
     /// See [`Bed::start_account`].
@@ -82,6 +87,10 @@ impl<C: ContactLaw> AnyBed for Bed<C> {
 
     fn take_out(&mut self, body: usize) {
         Bed::take_out(self, body);
+    }
+
+    fn let_go(&mut self, gone: &[u32]) -> Result<()> {
+        Bed::let_go(self, gone)
     }
 
     fn join(&mut self, newcomers: &[Newcomer]) {

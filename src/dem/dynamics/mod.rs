@@ -3,6 +3,7 @@
 pub mod any;
 pub mod compose;
 pub mod contact;
+mod removal;
 mod restart;
 pub mod state;
 
@@ -189,14 +190,6 @@ impl<C: ContactLaw> Bed<C> {
     /// Neighbours are listed anew before the next evaluation, after a body was moved by hand or taken out.
     pub fn list_again(&mut self) {
         self.listed.due = true;
-    }
-
-    /// Takes a body out at once. What its contacts hold goes with it; what they have dissipated stays in the account.
-    pub fn take_out(&mut self, body: usize) {
-        let softening = self.law.softening();
-        self.surfaces.release(body, &mut self.grains, softening);
-        self.machine.remove(body);
-        self.list_again();
     }
 
     /// Neighbours are listed and forces evaluated anew, after grains have come in.

@@ -110,7 +110,7 @@ impl<C: ContactLaw> Bed<C> {
 
     fn add_contact_energies(&self, energies: &mut Energies) {
         let softening = self.law.softening();
-        energies.plastic = self.grains.plastic.iter().sum();
+        energies.plastic = self.grains.plastic.iter().sum::<f64>() + self.grains.plastic_gone;
         for (index, memory) in self.contacts.memory.iter().enumerate() {
             energies.elastic +=
                 softening * self.contacts.elastic_energy(index, self.squeeze_of(index));
@@ -189,10 +189,11 @@ impl<C: ContactLaw> Bed<C> {
             packing.max_speed = packing.max_speed.max(motion.velocity.length());
             packing.rms_speed += motion.velocity.length_squared();
         }
-        packing.rms_speed = (packing.rms_speed / self.grains.len() as f64).sqrt();
+        let count = self.grains.len().max(1) as f64;
+        packing.rms_speed = (packing.rms_speed / count).sqrt();
         self.survey_pairs(&mut packing);
         self.survey_surfaces(&mut packing);
-        packing.coordination = 2.0 * packing.contacts as f64 / self.grains.len() as f64;
+        packing.coordination = 2.0 * packing.contacts as f64 / count;
         packing.mean_force /= packing.contacts.max(1) as f64;
         packing
     }

@@ -49,10 +49,14 @@ pub struct Grains {
     pub spins: Vec<Spin>,
     /// Energy dissipated by plastic flow in contacts that are over, a half of each contact to each of its grains, J.
     pub plastic: Vec<f64>,
-    /// Name of each grain, kept when the order changes.
+    /// Name of each grain, kept when the order changes and never given again.
     pub ids: Vec<u32>,
+    /// Names given so far.
+    pub named: u32,
     /// Material of each grain, as an index; empty while all grains are of material 0.
     pub materials: Vec<u8>,
+    /// The same of grains that have been taken out, J.
+    pub plastic_gone: f64,
     /// Sides of the room.
     pub room: Periodic,
 }
@@ -61,7 +65,8 @@ impl Grains {
     /// Adds a solid sphere of `density` (kg/m3) at rest.
     pub fn add(&mut self, centre: Vector, radius: f64, density: f64) {
         let mass = 4.0 / 3.0 * PI * radius.powi(3) * density;
-        self.ids.push(self.spheres.len() as u32);
+        self.ids.push(self.named);
+        self.named += 1;
         self.spheres.push(Sphere { centre, radius });
         self.motions.push(Motion {
             velocity: Vector::ZERO,
@@ -145,7 +150,7 @@ impl Grains {
             .sum()
     }
 
-    /// Puts the grains in the order of `old` indices.
+    /// Puts the grains in the order of `old` indices; those not among them are gone.
     pub fn reorder(&mut self, old: &[u32]) {
         fn pick<T: Copy>(column: &mut Vec<T>, old: &[u32]) {
             *column = old.iter().map(|&i| column[i as usize]).collect();

@@ -171,6 +171,31 @@ impl Cells {
     }
 }
 
+/// Grains that stay when others are taken out; their order is kept.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Staying {
+    /// Index each grain will have, if it stays.
+    pub new: Vec<Option<u32>>,
+    /// Index each of those that stay had.
+    pub old: Vec<u32>,
+}
+
+impl Staying {
+    /// All of `count` grains but those whose indices are `gone`, ascending.
+    #[must_use]
+    pub fn without(count: usize, gone: &[u32]) -> Self {
+        let (mut new, mut old) = (vec![None; count], Vec::new());
+        let mut gone = gone.iter().copied().peekable();
+        for grain in 0..count as u32 {
+            if gone.next_if_eq(&grain).is_none() {
+                new[grain as usize] = Some(old.len() as u32);
+                old.push(grain);
+            }
+        }
+        Self { new, old }
+    }
+}
+
 fn grid(extent: Vector, size: f64) -> [usize; 3] {
     [0, 1, 2].map(|axis| ((extent[axis] / size) as usize).max(1))
 }
@@ -212,6 +237,29 @@ impl HalfList {
         }
         list.index_second(spheres.len());
         list
+    }
+
+    /// The pairs of grains that stay, under their new indices, and which pairs those were.
+    #[must_use]
+    pub fn of_those(&self, stay: &Staying) -> (Self, Vec<Option<usize>>) {
+        let mut list = HalfList {
+            start: vec![0],
+            ..HalfList::default()
+        };
+        let mut from = Vec::new();
+        for &old in &stay.old {
+            for at in self.first(old as usize) {
+                let pair = self.pairs[at].map(|grain| stay.new[grain as usize]);
+                if let [Some(first), Some(second)] = pair {
+                    list.pairs.push([first, second]);
+                    list.images.extend(self.images.get(at));
+                    from.push(Some(at));
+                }
+            }
+            list.start.push(list.pairs.len() as u32);
+        }
+        list.index_second(stay.old.len());
+        (list, from)
     }
 
     fn index_second(&mut self, grains: usize) {

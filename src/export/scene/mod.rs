@@ -105,6 +105,7 @@ pub fn check(scene: &Scene) -> Result<()> {
         container,
         domain,
         bodies,
+        outlets,
         stages,
         measures,
     } = scene;
@@ -121,6 +122,9 @@ pub fn check(scene: &Scene) -> Result<()> {
             "body[0]",
             "must be left out: only the walls and the piston of the box are exported",
         );
+    }
+    if !outlets.is_empty() {
+        return refuse("outlet[0]", "must be left out: outlets are not exported");
     }
     if !measures.is_empty() {
         return refuse("measure[0]", "must be left out: measures are not exported");

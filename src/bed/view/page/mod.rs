@@ -41,6 +41,8 @@ struct ShownFrame {
     time: f64,
     stage: String,
     count: usize,
+    /// Which of all grains are there; the first ones if none.
+    who: Option<String>,
     centres: String,
     levels: BTreeMap<&'static str, String>,
     poses: Vec<f32>,
@@ -72,6 +74,34 @@ struct Data<'a> {
     bodies: Vec<ShownBody<'a>>,
 }
 
+/// Grains seen in any frame, in the order of their names.
+struct Seen {
+    ids: Vec<u32>,
+    radii: Vec<f32>,
+}
+
+impl Seen {
+    fn in_any(frames: &[Frame]) -> Self {
+        let radii: BTreeMap<u32, f32> = frames
+            .iter()
+            .flat_map(|frame| frame.ids.iter().copied().zip(frame.radii.iter().copied()))
+            .collect();
+        Self {
+            ids: radii.keys().copied().collect(),
+            radii: radii.into_values().collect(),
+        }
+    }
+
+    /// Places of the grains of a frame among all; none where they are the first ones.
+    fn who(&self, frame: &Frame) -> Option<String> {
+        if self.ids.starts_with(&frame.ids) {
+            return None;
+        }
+        let place = |id: &u32| self.ids.partition_point(|other| other < id) as u32;
+        Some(encode(frame.ids.iter().map(|id| place(id).to_le_bytes())))
+    }
+}
+
 /// Writes the page of a run; `title` and `summary` stand in its corner.
 ///
 /// # Errors
@@ -83,28 +113,21 @@ pub fn write_page(
     film: &Film,
     bed: &dyn AnyBed,
 ) -> Result<()> {
-    let grains = bed.grains();
-    let fitting = BUDGET / (GRAIN * grains.len().max(1));
+    let fitting = BUDGET / (GRAIN * film.most_grains().max(1));
     let frames = film.spread(fitting.min(MOST))?;
-    let mut radii: Vec<(u32, f64)> = grains
-        .ids
-        .iter()
-        .copied()
-        .zip(grains.spheres.iter().map(|s| s.radius))
-        .collect();
-    radii.sort_unstable_by_key(|&(id, _)| id);
-    let radii: Vec<f32> = radii.iter().map(|&(_, radius)| radius as f32).collect();
+    let grains = Seen::in_any(&frames);
+    let radii = &grains.radii;
     let bounds = bounds(&frames, 0.0);
     let size = [0, 1, 2].map(|axis| bounds[1][axis] - bounds[0][axis]);
     let quantities = quantities(&frames);
     let data = Data {
-        view: looked_at(&frames, &radii),
+        view: looked_at(&frames, radii),
         radii: encode(radii.iter().map(|r| r.to_le_bytes())),
         low: bounds[0],
         size,
         frames: frames
             .iter()
-            .map(|frame| shown(frame, bounds[0], size, &quantities))
+            .map(|frame| shown(frame, bounds[0], size, &quantities, &grains))
             .collect(),
         quantities,
         decades: DECADES,
@@ -212,7 +235,13 @@ fn quantities(frames: &[Frame]) -> Vec<Quantity> {
     ]
 }
 
-fn shown(frame: &Frame, low: [f32; 3], size: [f32; 3], quantities: &[Quantity]) -> ShownFrame {
+fn shown(
+    frame: &Frame,
+    low: [f32; 3],
+    size: [f32; 3],
+    quantities: &[Quantity],
+    grains: &Seen,
+) -> ShownFrame {
     let place = |centre: &[f32; 3], axis: usize| {
         let part = (centre[axis] - low[axis]) / size[axis].max(f32::MIN_POSITIVE);
         (part.clamp(0.0, 1.0) * f32::from(u16::MAX)).round() as u16
@@ -232,6 +261,7 @@ fn shown(frame: &Frame, low: [f32; 3], size: [f32; 3], quantities: &[Quantity]) 
         time: frame.time,
         stage: frame.stage.clone(),
         count: frame.centres.len(),
+        who: grains.who(frame),
         centres: encode(centres),
         levels: levels.collect(),
         poses: frame.poses.iter().flatten().copied().collect(),

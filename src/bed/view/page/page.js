@@ -25,6 +25,49 @@
   const centresOf = (k) => once(`centres ${k}`, () => buffer(bytes(bed.frames[k].centres)));
   const levelsOf = (k, q) => once(`${q} ${k}`, () => buffer(bytes(bed.frames[k].levels[q])));
 
+  // ---- grains of two frames: those of the second that were not in the first appear with it --------------------
+  const whoOf = (k) => once(`who ${k}`, () => (bed.frames[k].who ? words(bed.frames[k].who) : null));
+  /** Places within two frames, and among all, of the grains that are in both; none where both begin with all of them. */
+  const both = (first, second) => once(`both ${first} ${second}`, () => {
+    const [a, b] = [whoOf(first), whoOf(second)];
+    if (!a && !b) return null;
+    const at = { first: [], second: [], all: [] };
+    const [m, n] = [bed.frames[first].count, bed.frames[second].count];
+    for (let i = 0, j = 0; i < m && j < n;) {
+      const [x, y] = [a ? a[i] : i, b ? b[j] : j];
+      if (x === y) { at.first.push(i); at.second.push(j); at.all.push(x); }
+      if (x <= y) i++;
+      if (y <= x) j++;
+    }
+    return at;
+  });
+  /** Those of `size` numbers a grain that stand at `places`. */
+  const picked = (data, places, size) => {
+    const out = new data.constructor(places.length * size);
+    places.forEach((place, i) => { for (let c = 0; c < size; c++) out[size * i + c] = data[size * place + c]; });
+    return out;
+  };
+  const shorts = (text) => new Uint16Array(bytes(text).buffer);
+  /** Buffers of two frames for the grains in both. */
+  const pairOf = (first, second, q) => {
+    const at = both(first, second);
+    if (!at) {
+      return {
+        count: Math.min(bed.frames[first].count, bed.frames[second].count), radius: radii,
+        before: centresOf(first), after: centresOf(second), levels: [levelsOf(first, q), levelsOf(second, q)],
+      };
+    }
+    const key = `${first} ${second}`;
+    const centres = (k, places, name) => once(`${name} ${key}`, () => buffer(picked(shorts(bed.frames[k].centres), places, 3)));
+    const levels = (k, places, name) => once(`${name} ${q} ${key}`, () => buffer(picked(bytes(bed.frames[k].levels[q]), places, 1)));
+    return {
+      count: at.all.length,
+      radius: once(`radius ${key}`, () => buffer(picked(floats(bed.radii), at.all, 1))),
+      before: centres(first, at.first, "before"), after: centres(second, at.second, "after"),
+      levels: [levels(first, at.first, "from"), levels(second, at.second, "to")],
+    };
+  };
+
   // ---- programs ---------------------------------------------------------------------------------------------
   const compile = (vertex, fragment) => {
     const program = gl.createProgram();
@@ -156,8 +199,8 @@
   };
 
   const drawGrains = (first, second, part) => {
-    const count = Math.min(bed.frames[first].count, bed.frames[second].count);
-    if (!count) return;
+    const pair = pairOf(first, second, quantity);
+    if (!pair.count) return;
     const { program, at, input } = grains;
     gl.useProgram(program);
     camera(grains);
@@ -167,12 +210,12 @@
     const depth = half(axes().out) * 1.02;
     gl.uniform1f(at.cut, $("cut").value > 0 ? depth - 0.02 * $("cut").value * depth : 1e30);
     attribute(input("corner"), square, 2, gl.FLOAT, false, 0);
-    attribute(input("before"), centresOf(first), 3, gl.UNSIGNED_SHORT, true, 1);
-    attribute(input("after"), centresOf(second), 3, gl.UNSIGNED_SHORT, true, 1);
-    attribute(input("radius"), radii, 1, gl.FLOAT, false, 1);
-    attribute(input("levelBefore"), levelsOf(first, quantity), 1, gl.UNSIGNED_BYTE, true, 1);
-    attribute(input("levelAfter"), levelsOf(second, quantity), 1, gl.UNSIGNED_BYTE, true, 1);
-    gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, count);
+    attribute(input("before"), pair.before, 3, gl.UNSIGNED_SHORT, true, 1);
+    attribute(input("after"), pair.after, 3, gl.UNSIGNED_SHORT, true, 1);
+    attribute(input("radius"), pair.radius, 1, gl.FLOAT, false, 1);
+    attribute(input("levelBefore"), pair.levels[0], 1, gl.UNSIGNED_BYTE, true, 1);
+    attribute(input("levelAfter"), pair.levels[1], 1, gl.UNSIGNED_BYTE, true, 1);
+    gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, pair.count);
     for (const name of ["before", "after", "radius", "levelBefore", "levelAfter"]) {
       gl.vertexAttribDivisor(input(name), 0);
       gl.disableVertexAttribArray(input(name));
