@@ -1,6 +1,7 @@
 //! Beds of grains: contacts, bodies and periodic sides, scenes from their files to their pages, and refusals.
 
 mod adapter;
+mod belts;
 mod bodies;
 #[path = "../support/browser.rs"]
 mod browser;

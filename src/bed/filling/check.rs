@@ -5,7 +5,7 @@ use super::lattice::{Source, lattice, random_of};
 use super::space::Space;
 use crate::Result;
 use crate::bed::scene::region::Region;
-use crate::bed::scene::{Insertion, Outlet, Scene, Stage};
+use crate::bed::scene::{Change, Insertion, Move, Outlet, Scene, Stage};
 use crate::dem::bodies::Mobility;
 use crate::dem::bodies::machine::Machine;
 use crate::dem::grains::neighbours::HalfList;
@@ -157,10 +157,15 @@ pub fn check_bodies(scene: &Scene, feed: &Feed, grains: &Grains, machine: &Machi
 fn stays(scene: &Scene, machine: &Machine, body: usize) -> bool {
     let body = &machine.bodies()[body];
     let told = |stage: &Stage| match stage {
-        Stage::Run(run) => run.moves.iter().any(|order| order.body == body.name),
+        Stage::Run(run) => {
+            let leaves = |order: &Move| !matches!(order.change, Change::Belt(_));
+            let its = |order: &&Move| order.body == body.name;
+            run.moves.iter().filter(its).any(leaves)
+        }
         _ => false,
     };
-    body.mobility == Mobility::Fixed && !scene.stages.iter().any(told)
+    let stands = matches!(body.mobility, Mobility::Fixed | Mobility::Belt(_));
+    stands && !scene.stages.iter().any(told)
 }
 
 fn in_the_way(

@@ -63,7 +63,7 @@ pub struct Row {
     /// Dissipated by plastic flow.
     #[serde(rename = "plastic_J")]
     pub plastic_j: f64,
-    /// Work done by driven bodies.
+    /// Work done by driven bodies and belts.
     #[serde(rename = "driven_work_J")]
     pub driven_work_j: f64,
     /// Work done by raising the stiffness.

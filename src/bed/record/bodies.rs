@@ -49,9 +49,12 @@ pub struct BodyRow {
     /// See `torque_x`.
     #[serde(rename = "torque_z_N_m")]
     pub torque_z: f64,
+    /// Power of its belt on the grains.
+    #[serde(rename = "belt_power_W")]
+    pub belt_power: f64,
 }
 keep_fields!(BodyRow: stage, time_s, body, x_m, y_m, z_m, vx_m_s, vy_m_s, vz_m_s, wx_rad_s, wy_rad_s, wz_rad_s, force_x,
-    force_y, force_z, torque_x, torque_y, torque_z);
+    force_y, force_z, torque_x, torque_y, torque_z, belt_power);
 
 /// Rows of all bodies at the present instant.
 #[must_use]
@@ -80,6 +83,7 @@ pub fn body_rows(bed: &dyn AnyBed, stage: &str) -> Vec<BodyRow> {
                 torque_x: load.torque.x,
                 torque_y: load.torque.y,
                 torque_z: load.torque.z,
+                belt_power: load.power,
             }
         })
         .collect()

@@ -1,7 +1,7 @@
 //! Bodies of a scene as they are written: one shape, one place, one way to move.
 
 use super::at::At;
-use super::drive::{DrivenTable, FreeTable};
+use super::drive::{BeltTable, DrivenTable, FreeTable};
 use super::material::GrainMaterial;
 use super::written::vector;
 use crate::Result;
@@ -31,6 +31,7 @@ pub(super) struct BodyTable {
     at: Option<[Quantity<Length>; 3]>,
     turn: Option<TurnTable>,
     driven: Option<DrivenTable>,
+    belt: Option<BeltTable>,
     free: Option<FreeTable>,
 }
 
@@ -160,12 +161,33 @@ impl BodyTable {
             }
             None => Rotation::IDENTITY,
         };
-        let mobility = match (&self.driven, &self.free) {
-            (None, None) => Mobility::Fixed,
-            (Some(driven), None) => {
+        let centre = self.at.map_or(Vector::ZERO, vector);
+        let rotation = turn * shape.turn;
+        let mobility = match (&self.driven, &self.belt, &self.free) {
+            (None, None, None) => Mobility::Fixed,
+            (Some(driven), None, None) => {
                 Mobility::Driven(driven.check(at.document, &at.name("driven"))?)
             }
-            (None, Some(free)) => {
+            (None, Some(belt), None) => {
+                let belt = belt.check(at.document, &at.name("belt"), centre)?;
+                let normal = rotation * Vector::Z;
+                let stands = belt.velocity != Vector::ZERO
+                    && belt.at(centre, normal).length() < 1e-9 * belt.velocity.length();
+                if shape.solid == Solid::HalfSpace && belt.spin == Vector::ZERO && stands {
+                    return Err(at.reject(
+                        "belt.velocity",
+                        "must have a part along the plane: a belt moves along itself",
+                    ));
+                }
+                if shape.solid == Solid::HalfSpace && belt.spin != Vector::ZERO {
+                    return Err(at.reject(
+                        "belt.spin",
+                        "must not be given to a plane: it has no end, and its speed no bound",
+                    ));
+                }
+                Mobility::Belt(belt)
+            }
+            (None, None, Some(free)) => {
                 if let Some(opening) = &shape.opening {
                     let allowed = format!(
                         "must be a closed surface for a free body, whose mass is spread over its inside: {opening}; close the mesh, or make the body driven or fixed"
@@ -174,7 +196,13 @@ impl BodyTable {
                 }
                 Mobility::Free(free.check(at, &shape.solid)?)
             }
-            (Some(_), Some(_)) => {
+            (_, Some(_), _) => {
+                return Err(at.reject(
+                    "belt",
+                    "must stand alone: the surface of a body moves only while the body stands",
+                ));
+            }
+            (Some(_), None, Some(_)) => {
                 return Err(at.reject(
                     "free",
                     "must not stand beside `driven`: one body, one way to move",
@@ -184,8 +212,8 @@ impl BodyTable {
         Ok(Body {
             name: self.name,
             solid: shape.solid,
-            centre: self.at.map_or(Vector::ZERO, vector),
-            rotation: turn * shape.turn,
+            centre,
+            rotation,
             mobility,
             material: None,
         })

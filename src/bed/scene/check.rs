@@ -66,10 +66,20 @@ impl Scene {
                     |body| matches!(body.mobility, Mobility::Free(freedom) if freedom.held),
                 );
                 let free = body.is_some_and(|body| matches!(body.mobility, Mobility::Free(_)));
+                let belt = body.is_some_and(|body| matches!(body.mobility, Mobility::Belt(_)));
                 match order.change {
                     Change::Release if !held => {
                         let allowed = "must stand for a free body with `held = true`";
                         return Err(self.document.reject(&format!("{key}.release"), allowed));
+                    }
+                    Change::Belt(_) if !belt => {
+                        let allowed =
+                            "must stand for a body that is a belt (`belt = {}` waits for a stage)";
+                        return Err(self.document.reject(&format!("{key}.belt"), allowed));
+                    }
+                    Change::Drive(_) if belt => {
+                        let allowed = "must not be told to a belt, which stands: `belt = {...}` moves its surface, `belt = {}` stops it";
+                        return Err(self.document.reject(&key, allowed));
                     }
                     Change::Drive(_) if free => {
                         let allowed =

@@ -1,8 +1,9 @@
-//! Ways a body may move, as they are written: driven, or free with joint and motor.
+//! Ways a body may move, as they are written: driven, a belt, or free with joint and motor.
 
 use super::at::At;
 use super::written::vector;
 use crate::Result;
+use crate::dem::bodies::belt::Belt;
 use crate::dem::bodies::motion::{Motion, Oscillation, Servo};
 use crate::dem::bodies::{Freedom, Joint, JointKind, Motor, Solid};
 use crate::document::Document;
@@ -44,6 +45,14 @@ struct ServoTable {
     direction: [f64; 3],
     force: Quantity<Force>,
     speed: Quantity<Velocity>,
+}
+
+/// Motion of a surface along itself.
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct BeltTable {
+    velocity: Option<[Quantity<Velocity>; 3]>,
+    spin: Option<SpinTable>,
 }
 
 /// Motion under forces.
@@ -120,6 +129,22 @@ impl DrivenTable {
             about: self.spin.and_then(|spin| spin.about).map(vector),
             oscillation,
             servo,
+        })
+    }
+}
+
+impl BeltTable {
+    /// Belt of a body whose origin is `centre` (m).
+    pub(super) fn check(&self, document: &Document, key: &str, centre: Vector) -> Result<Belt> {
+        let at = At { document, key };
+        let spin = match &self.spin {
+            Some(spin) => at.direction("spin.axis", spin.axis)? * spin.rate.si(),
+            None => Vector::ZERO,
+        };
+        Ok(Belt {
+            velocity: self.velocity.map_or(Vector::ZERO, vector),
+            spin,
+            about: self.spin.and_then(|spin| spin.about).map_or(centre, vector),
         })
     }
 }

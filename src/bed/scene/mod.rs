@@ -159,6 +159,10 @@ impl Scene {
         let cast = Cast {
             contact: &contact,
             bodies: names(&bodies, file.container.is_some(), &file.periodic),
+            centres: bodies
+                .iter()
+                .map(|body| (body.name.clone(), body.centre))
+                .collect(),
             groups: groups.iter().map(|group| group.name.clone()).collect(),
             boxed: file.container.is_some(),
         };

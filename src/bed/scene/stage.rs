@@ -1,5 +1,6 @@
 //! Stages of a scene: what a bed goes through, one after the other.
 
+use crate::dem::bodies::belt::Belt;
 use crate::dem::bodies::motion::Motion;
 use crate::dem::force::named::Constants;
 
@@ -81,6 +82,8 @@ pub struct Move {
 pub enum Change {
     /// A driven body goes on with this motion.
     Drive(Motion),
+    /// The surface of a belt goes on with this motion.
+    Belt(Belt),
     /// It is taken out of the bed.
     Remove,
     /// A held body is let go.

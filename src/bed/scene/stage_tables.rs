@@ -1,7 +1,7 @@
 //! Stages as they are written, and the order they must follow.
 
 use super::at::At;
-use super::drive::DrivenTable;
+use super::drive::{BeltTable, DrivenTable};
 use super::stage::{Change, Duration, Move, RunStage, Stage, Until};
 use crate::Result;
 use crate::dem::bodies::motion::Motion;
@@ -9,7 +9,9 @@ use crate::dem::force::named::Constants;
 use crate::document::Document;
 use crate::error::must_be_one_of;
 use crate::unit::{Energy, Force, Length, Pressure, Quantity, Time, Velocity};
+use parry3d::math::Vector;
 use serde::Deserialize;
+use std::collections::BTreeMap;
 
 /// Stage as it is written.
 #[derive(Debug, Deserialize)]
@@ -56,6 +58,7 @@ pub(super) struct RunTable {
 pub(super) struct MoveTable {
     body: String,
     driven: Option<DrivenTable>,
+    belt: Option<BeltTable>,
     #[serde(default)]
     stop: bool,
     #[serde(default)]
@@ -87,6 +90,8 @@ pub(super) struct Cast<'a> {
     pub(super) contact: &'a Constants,
     /// Names of the bodies, box walls included.
     pub(super) bodies: Vec<String>,
+    /// Origins (m) of the scene's own bodies.
+    pub(super) centres: BTreeMap<String, Vector>,
     /// Names of the groups of grains.
     pub(super) groups: Vec<String>,
     /// Whether there is a box.
@@ -275,15 +280,21 @@ impl MoveTable {
     fn check(self, document: &Document, key: &str, cast: &Cast) -> Result<Move> {
         let at = At { document, key };
         one_of(&at, "body", &self.body, &cast.bodies)?;
-        let change = match (&self.driven, self.stop, self.remove, self.release) {
-            (Some(driven), false, false, false) => {
+        let wanted = [self.stop, self.remove, self.release];
+        let change = match (&self.driven, &self.belt, wanted) {
+            (Some(driven), None, [false, false, false]) => {
                 Change::Drive(driven.check(document, &at.name("driven"))?)
             }
-            (None, true, false, false) => Change::Drive(Motion::default()),
-            (None, false, true, false) => Change::Remove,
-            (None, false, false, true) => Change::Release,
+            (None, Some(belt), [false, false, false]) => {
+                let centre = cast.centres.get(&self.body);
+                let centre = centre.copied().unwrap_or(Vector::ZERO);
+                Change::Belt(belt.check(document, &at.name("belt"), centre)?)
+            }
+            (None, None, [true, false, false]) => Change::Drive(Motion::default()),
+            (None, None, [false, true, false]) => Change::Remove,
+            (None, None, [false, false, true]) => Change::Release,
             _ => {
-                let allowed = "must hold one change: `driven = {...}`, `stop = true`, `remove = true` or `release = true`";
+                let allowed = "must hold one change: `driven = {...}`, `belt = {...}`, `stop = true`, `remove = true` or `release = true`";
                 return Err(document.reject(key, allowed));
             }
         };

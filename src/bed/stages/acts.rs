@@ -97,6 +97,7 @@ impl Run<'_> {
             };
             match order.change {
                 Change::Drive(motion) => self.bed.machine_mut().drive_as(body, motion),
+                Change::Belt(belt) => self.bed.run_belt(body, belt),
                 Change::Remove => self.intervene(|bed| bed.take_out(body)),
                 Change::Release => self.intervene(|bed| bed.machine_mut().release(body)),
             }

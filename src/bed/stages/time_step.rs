@@ -3,6 +3,7 @@
 
 use crate::Result;
 use crate::bed::scene::{Change, GrainMaterial, Group, Scene, Stage, TimeStep};
+use crate::dem::bodies::belt::Belt;
 use crate::dem::bodies::motion::Motion;
 use crate::dem::bodies::{Body, Mobility};
 use crate::dem::dynamics::state::Packing;
@@ -213,6 +214,11 @@ fn check_speeds(scene: &Scene) -> Result<()> {
     Ok(())
 }
 
+/// Speed (m/s) that grains may get from a belt.
+fn belt_speed(body: &Body, belt: &Belt) -> f64 {
+    belt.fastest(body.solid.reach() + (body.centre - belt.about).length())
+}
+
 /// Largest speed (m/s) of each body of a scene that has one, and of each that a stage gives one, with its key.
 fn told_speeds(scene: &Scene) -> Vec<(String, f64)> {
     let arm = |body: &Body, motion: &Motion| {
@@ -231,6 +237,9 @@ fn told_speeds(scene: &Scene) -> Vec<(String, f64)> {
                 let speed = motion.fastest(arm(body, motion));
                 speeds.push((format!("body[{index}].driven"), speed));
             }
+            Mobility::Belt(belt) => {
+                speeds.push((format!("body[{index}].belt"), belt_speed(body, belt)));
+            }
             Mobility::Free(freedom) => {
                 let speed = freedom.velocity.length();
                 speeds.push((format!("body[{index}].free.velocity"), speed));
@@ -244,11 +253,18 @@ fn told_speeds(scene: &Scene) -> Vec<(String, f64)> {
             }
             Stage::Run(run) => {
                 for (at, order) in run.moves.iter().enumerate() {
-                    if let Change::Drive(motion) = &order.change {
-                        let body = scene.bodies.iter().find(|body| body.name == order.body);
-                        let arm = body.map_or(0.0, |body| arm(body, motion));
-                        let key = format!("stage[{index}].move[{at}].driven");
-                        speeds.push((key, motion.fastest(arm)));
+                    let body = scene.bodies.iter().find(|body| body.name == order.body);
+                    let key = |name| format!("stage[{index}].move[{at}].{name}");
+                    match &order.change {
+                        Change::Drive(motion) => {
+                            let arm = body.map_or(0.0, |body| arm(body, motion));
+                            speeds.push((key("driven"), motion.fastest(arm)));
+                        }
+                        Change::Belt(belt) => {
+                            let speed = body.map_or(0.0, |body| belt_speed(body, belt));
+                            speeds.push((key("belt"), speed));
+                        }
+                        Change::Remove | Change::Release => {}
                     }
                 }
             }

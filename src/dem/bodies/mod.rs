@@ -1,11 +1,13 @@
 //! Bodies: what is not a grain, as a scene describes it: shape, place and how it may move.
 
+pub mod belt;
 pub mod enclosure;
 pub mod machine;
 pub mod mesh;
 pub mod motion;
 pub mod touching;
 
+use self::belt::Belt;
 use self::motion::Motion;
 use crate::{Error, Result};
 use parry3d::math::{Rotation, Vector};
@@ -41,6 +43,8 @@ pub enum Solid {
 pub enum Mobility {
     /// Never moves.
     Fixed,
+    /// Never moves, but its surface does.
+    Belt(Belt),
     /// Moves as told, whatever the grains do.
     Driven(Motion),
     /// Moves under gravity and the grains.

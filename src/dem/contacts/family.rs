@@ -187,12 +187,12 @@ impl<C: ContactLaw> Situation<'_, C> {
         let body = &self.machine.stations[surface];
         let (normal, distance) = near.unwrap_or((patch.normal, sphere.radius));
         let point = sphere.centre - normal * distance;
-        let surface_velocity = body.velocity + body.spin.cross(point - body.centre);
+        let surface_velocity = body.surface_velocity(point, normal);
         let meeting = Meeting {
             overlap: sphere.radius - distance,
             normal,
             velocity: motion.velocity - surface_velocity,
-            spins: [self.grains.spins[grain].rate, body.spin],
+            spins: [self.grains.spins[grain].rate, body.surface_spin()],
             radii: [sphere.radius, f64::INFINITY],
             inverse_distance: 0.0,
             mass: 1.0 / (motion.inverse_mass + body.inverse_mass),

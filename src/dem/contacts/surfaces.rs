@@ -166,11 +166,14 @@ impl<C: ContactLaw> Surfaces<C> {
         loads.fill(Load::default());
         for Held { surface, patch, .. } in self.all() {
             if patch.push.touches() {
-                let load = &mut loads[surface];
+                let (load, station) = (&mut loads[surface], &machine.stations[surface]);
+                let moment = C::moment(&patch.memory);
                 load.force -= patch.push.force;
-                load.torque -= (patch.point - machine.stations[surface].centre)
-                    .cross(patch.push.force)
-                    + C::moment(&patch.memory);
+                load.torque -= (patch.point - station.centre).cross(patch.push.force) + moment;
+                if let Some(belt) = &station.belt {
+                    let along = belt.at(patch.point, patch.normal);
+                    load.power += patch.push.force.dot(along) + moment.dot(belt.spin);
+                }
             }
         }
     }

@@ -4,6 +4,7 @@ use super::Bed;
 use super::contact::ContactRow;
 use super::state::{Energies, Packing};
 use crate::Result;
+use crate::dem::bodies::belt::Belt;
 use crate::dem::bodies::machine::{Load, Machine};
 use crate::dem::force::effects::ContactLaw;
 use crate::dem::grains::Grains;
@@ -29,6 +30,8 @@ pub trait AnyBed: Send + Keep {
     fn list_again(&mut self);
     /// See [`Bed::take_out`].
     fn take_out(&mut self, body: usize);
+    /// See [`Bed::run_belt`].
+    fn run_belt(&mut self, body: usize, belt: Belt);
     /// See [`Bed::let_go`].
     ///
     /// # Errors
@@ -87,6 +90,10 @@ impl<C: ContactLaw> AnyBed for Bed<C> {
 
     fn take_out(&mut self, body: usize) {
         Bed::take_out(self, body);
+    }
+
+    fn run_belt(&mut self, body: usize, belt: Belt) {
+        Bed::run_belt(self, body, belt);
     }
 
     fn let_go(&mut self, gone: &[u32]) -> Result<()> {

@@ -7,6 +7,7 @@ mod removal;
 mod restart;
 pub mod state;
 
+use crate::dem::bodies::belt::Belt;
 use crate::dem::bodies::machine::{Load, Machine};
 use crate::dem::contacts::pairs::Contacts;
 use crate::dem::contacts::surfaces::Surfaces;
@@ -24,7 +25,7 @@ const CHUNK: usize = 256;
 /// Work done on the bed from outside, J.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Outside {
-    /// By driven bodies on grains, and by bringing grains back through periodic sides against gravity.
+    /// By driven bodies and belts on grains, and by bringing grains back through periodic sides against gravity.
     pub driven: f64,
     /// By changes of the law while grains touch.
     pub stiffening: f64,
@@ -238,7 +239,15 @@ impl<C: ContactLaw> Bed<C> {
         Ok(())
     }
 
-    /// Books what driven bodies spent since the last step.
+    /// Moves the surface of a body that is a belt like this from now on.
+    ///
+    /// Forces must be up to date ([`Bed::evaluate`]): its power on them is that of the new motion.
+    pub fn run_belt(&mut self, body: usize, belt: Belt) {
+        self.machine.stations[body].belt = Some(belt);
+        self.surfaces.load_into(&self.machine, &mut self.loads);
+    }
+
+    /// Books what driven bodies and belts spent since the last step.
     fn book_drives(&mut self) {
         for ((station, now), before) in self
             .machine
@@ -251,6 +260,9 @@ impl<C: ContactLaw> Bed<C> {
                 let power = (now.force + before.force).dot(station.velocity)
                     + (now.torque + before.torque).dot(station.spin);
                 self.outside.driven -= 0.5 * self.dt * power;
+            }
+            if station.belt.is_some() {
+                self.outside.driven += 0.5 * self.dt * (now.power + before.power);
             }
         }
     }

@@ -27,7 +27,7 @@ keep_fields!(Motion: velocity, inverse_mass);
 keep_fields!(Spin: rate, inverse_inertia);
 keep_fields!(Grains: spheres, motions, spins, plastic, ids, named, materials, plastic_gone; rebuilt room);
 keep_fields!(Push: force, couple, arms);
-keep_fields!(Load: force, torque);
+keep_fields!(Load: force, torque, power);
 keep_fields!(HalfList: pairs, start, reverse_start, reverse, images);
 keep_fields!(impl [M: Keep] Patch<M>: memory, push, point, normal);
 keep_fields!(Tally: losses, left_out);

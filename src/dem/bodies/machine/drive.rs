@@ -1,6 +1,7 @@
 //! Driving: bodies told to move, held, released or taken out, and their state for a restart.
 
 use crate::dem::bodies::Mobility;
+use crate::dem::bodies::belt::Belt;
 use crate::dem::bodies::machine::{Load, Machine};
 use crate::dem::bodies::motion::{Motion, Oscillation, Servo};
 use crate::tape::{Keep, Tape, keep_fields};
@@ -15,6 +16,7 @@ pub struct BodyState {
     spin: Vector,
     drive: Drive,
     mode: Mode,
+    belt: Option<Belt>,
 }
 
 /// Told motion of a body with where and when it began, in the machine's unit.
@@ -43,7 +45,8 @@ keep_fields!(Oscillation: amplitude, frequency);
 keep_fields!(Servo: direction, force, speed);
 keep_fields!(Motion: velocity, spin, about, oscillation, servo);
 keep_fields!(Drive: motion, start, began);
-keep_fields!(BodyState: pose, velocity, spin, drive, mode);
+keep_fields!(Belt: velocity, spin, about);
+keep_fields!(BodyState: pose, velocity, spin, drive, mode, belt);
 
 impl Mode {
     const ALL: [Mode; 4] = [Mode::Usual, Mode::Held, Mode::Told, Mode::Removed];
@@ -164,6 +167,7 @@ impl Machine {
                     spin: body.angvel(),
                     drive: self.drives[index],
                     mode: self.modes[index],
+                    belt: self.stations[index].belt,
                 }
             })
             .collect()
@@ -174,6 +178,7 @@ impl Machine {
         self.time = time;
         for (index, state) in state.iter().enumerate() {
             self.drives[index] = state.drive;
+            self.stations[index].belt = state.belt;
             self.set_mode(index, state.mode);
             let body = &mut self.world.bodies[self.handles[index]];
             body.set_position(state.pose, true);

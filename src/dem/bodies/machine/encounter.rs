@@ -6,7 +6,8 @@ use parry3d::bounding_volume::BoundingVolume;
 use parry3d::query::intersection_test;
 
 impl Machine {
-    /// Bound on the speed (m/s) of any point of a body: of told motions their peak, of free bodies the present one.
+    /// Bound on the speed (m/s) of any point of a body: of told motions their peak, of free bodies the present one,
+    /// of belts that of their surface: as fast as grains may become on it.
     #[must_use]
     pub fn fastest(&self) -> f64 {
         let speeds = (0..self.handles.len()).map(|index| self.speed(index));
@@ -17,7 +18,15 @@ impl Machine {
     fn speed(&self, index: usize) -> f64 {
         let body = &self.world.bodies[self.handles[index]];
         let surface = &self.surfaces[index];
-        if surface.removed || body.is_fixed() {
+        if surface.removed {
+            return 0.0;
+        }
+        if let Some(belt) = &self.stations[index].belt {
+            let ball = surface.shape.compute_bounding_sphere(&surface.pose);
+            let off = (ball.center() - belt.about / self.unit).length();
+            return belt.fastest((off + ball.radius()) * self.unit) / self.unit;
+        }
+        if body.is_fixed() {
             return 0.0;
         }
         let (drive, told) = (&self.drives[index], self.stations[index].driven);

@@ -11,6 +11,7 @@ mod joint;
 pub use drive::BodyState;
 
 use crate::Result;
+use crate::dem::bodies::belt::Belt;
 use crate::dem::bodies::{Body, Freedom, Mobility};
 use drive::{Drive, Mode};
 use joint::Tie;
@@ -33,6 +34,28 @@ pub struct Station {
     pub inverse_mass: f64,
     /// Moves as told: what it does to the grains is work from outside.
     pub driven: bool,
+    /// How its surface moves beside the body: work from outside too.
+    pub belt: Option<Belt>,
+}
+
+impl Station {
+    /// Velocity (m/s) of the surface at a point (m) with a unit normal.
+    #[inline(always)]
+    #[must_use]
+    pub fn surface_velocity(&self, point: Vector, normal: Vector) -> Vector {
+        let velocity = self.velocity + self.spin.cross(point - self.centre);
+        match &self.belt {
+            None => velocity,
+            Some(belt) => velocity + belt.at(point, normal),
+        }
+    }
+
+    /// Angular velocity (rad/s) of the surface.
+    #[inline(always)]
+    #[must_use]
+    pub fn surface_spin(&self) -> Vector {
+        self.belt.map_or(self.spin, |belt| self.spin + belt.spin)
+    }
 }
 
 /// Surface of a body: lengths in the machine's unit.
@@ -53,6 +76,8 @@ pub struct Load {
     pub force: Vector,
     /// Torque about the centre of mass, N m.
     pub torque: Vector,
+    /// Power of its belt on the grains, W.
+    pub power: f64,
 }
 
 /// The bodies of a scene.
@@ -108,7 +133,7 @@ impl Machine {
     /// rapier's body for `body` of this shape.
     fn builder(&self, body: &Body, shape: &SharedShape) -> RigidBodyBuilder {
         let builder = match body.mobility {
-            Mobility::Fixed => RigidBodyBuilder::fixed(),
+            Mobility::Fixed | Mobility::Belt(_) => RigidBodyBuilder::fixed(),
             Mobility::Driven(_) => RigidBodyBuilder::kinematic_velocity_based(),
             Mobility::Free(Freedom {
                 mass,
@@ -148,6 +173,10 @@ impl Machine {
                 _ => 0.0,
             },
             driven: matches!(body.mobility, Mobility::Driven(_)),
+            belt: match body.mobility {
+                Mobility::Belt(belt) => Some(belt),
+                Mobility::Fixed | Mobility::Driven(_) | Mobility::Free(_) => None,
+            },
         });
         self.surfaces.push(Surface {
             shape,
