@@ -42,7 +42,41 @@ macro_rules! dimensions {
                 <$quantity>::from_str(text).ok().map(|quantity| quantity.value)
             }
         }
-    )+};
+    )+
+        /// Every dimension, in the order of the list.
+        pub const DIMENSIONS: &[Units] = &[$(Units::of::<$marker>()),+];
+    };
+}
+
+/// What a [`Dimension`] states, as a value.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Units {
+    /// [`Dimension::NAME`].
+    pub name: &'static str,
+    /// [`Dimension::EXAMPLE`].
+    pub example: &'static str,
+    /// [`Dimension::UNITS`].
+    pub units: &'static [&'static str],
+}
+
+impl Units {
+    /// What `D` states.
+    #[must_use]
+    pub const fn of<D: Dimension>() -> Self {
+        Self {
+            name: D::NAME,
+            example: D::EXAMPLE,
+            units: D::UNITS,
+        }
+    }
+
+    /// Name without its article.
+    #[must_use]
+    pub fn noun(&self) -> &'static str {
+        self.name
+            .split_once(' ')
+            .map_or(self.name, |(_, noun)| noun)
+    }
 }
 
 dimensions! {

@@ -36,6 +36,7 @@ pub struct BedArgs {
 #[derive(Debug, Subcommand)]
 #[allow(missing_docs)] // each verb is described by the doc comment of its arguments
 pub enum BedVerb {
+    #[command(after_help = super::examples(BedExportArgs::EXAMPLES))]
     Export(BedExportArgs),
 }
 
@@ -59,6 +60,11 @@ pub struct BedRunArgs {
 }
 
 impl Command for BedArgs {
+    const EXAMPLES: &'static [&'static str] = &[
+        "impactlaw bed cases/bed-drum.toml",
+        "impactlaw bed cases/solder-bed.toml --law models/sac305-solder.toml --out out/bed",
+    ];
+
     /// Run the verb, or the one below it.
     ///
     /// # Errors

@@ -32,6 +32,9 @@ pub struct BedExportArgs {
 }
 
 impl Command for BedExportArgs {
+    const EXAMPLES: &'static [&'static str] =
+        &["impactlaw bed export cases/solder-bed.toml --to lammps --law models/sac305-solder.toml"];
+
     /// Run the verb.
     ///
     /// # Errors

@@ -28,6 +28,11 @@ pub struct CompareArgs {
 }
 
 impl Command for CompareArgs {
+    const EXAMPLES: &'static [&'static str] = &[
+        "impactlaw compare cases/thesis-4-4.toml",
+        "impactlaw compare cases/thesis-4-4.toml --law models/elastic-perfectly-plastic-ey80.toml",
+    ];
+
     /// Run the verb: write both files and print the summary over all speeds.
     ///
     /// # Errors

@@ -42,6 +42,11 @@ pub struct CostArgs {
 }
 
 impl Command for CostArgs {
+    const EXAMPLES: &'static [&'static str] = &[
+        "impactlaw cost cases/thesis-4-4.toml --quick",
+        r#"impactlaw cost cases/thesis-4-4.toml --velocity "10 m/s" --ladder cells"#,
+    ];
+
     /// Run the ladders of every speed asked for; write `cost.csv`, `cost.md` and the figures.
     ///
     /// One run at a time on one thread, so that wall times mean something.

@@ -38,6 +38,11 @@ pub struct ExportArgs {
 }
 
 impl Command for ExportArgs {
+    const EXAMPLES: &'static [&'static str] = &[
+        "impactlaw export models/sac305-solder.toml --to liggghts,lammps",
+        "impactlaw export models/sac305-solder.toml --to all --out deck --check",
+    ];
+
     /// Run the verb.
     ///
     /// # Errors

@@ -25,6 +25,11 @@ pub struct FitArgs {
 }
 
 impl Command for FitArgs {
+    const EXAMPLES: &'static [&'static str] = &[
+        "impactlaw fit cases/thesis-4-4.toml",
+        "impactlaw fit cases/thesis-4-4.toml --impacts out/thesis-4-4 --out steel.toml",
+    ];
+
     /// Run the verb: [`Verdict::Missed`] when the law is off by more than its threshold somewhere.
     ///
     /// # Errors

@@ -36,6 +36,11 @@ pub struct ImpactArgs {
 }
 
 impl Command for ImpactArgs {
+    const EXAMPLES: &'static [&'static str] = &[
+        "impactlaw impact cases/thesis-4-4.toml",
+        r#"impactlaw impact cases/thesis-4-4.toml --velocity "10 m/s" --out out/slow"#,
+    ];
+
     /// Simulate and write all impacts of the case.
     ///
     /// # Errors

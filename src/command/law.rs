@@ -22,6 +22,7 @@ pub struct LawArgs {
 #[derive(Debug, Subcommand)]
 #[allow(missing_docs)] // each verb is described by the doc comment of its arguments
 pub enum LawVerb {
+    #[command(after_help = super::examples(LawArgs::EXAMPLES))]
     Eval(LawEvalArgs),
 }
 
@@ -42,6 +43,10 @@ pub struct LawEvalArgs {
 }
 
 impl Command for LawArgs {
+    const EXAMPLES: &'static [&'static str] = &[
+        r#"impactlaw law eval models/sac305-solder.toml --body "250 um" --displacements "1 um" "2 um""#,
+    ];
+
     /// Run the verb.
     ///
     /// # Errors

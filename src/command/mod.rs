@@ -6,17 +6,20 @@
 pub mod bed;
 pub mod bed_export;
 pub mod compare;
+pub mod completions;
 pub mod cost;
 pub mod diagnostic;
 pub mod export;
 pub mod fit;
 pub mod impact;
 pub mod law;
+pub mod man;
 pub mod plan;
 pub mod run;
 pub mod show;
 pub mod study;
 pub mod theory;
+pub mod units;
 
 use crate::{Error, Result};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -25,6 +28,9 @@ use std::path::{Path, PathBuf};
 
 /// The arguments of a verb; their doc comment is its description in the help.
 pub trait Command: clap::Args {
+    /// Command lines that work in the root of the repository, for the end of the verb's help.
+    const EXAMPLES: &'static [&'static str];
+
     /// Run the verb.
     ///
     /// # Errors
@@ -39,7 +45,7 @@ macro_rules! verbs {
         #[derive(Debug, clap::Subcommand)]
         #[allow(missing_docs)] // each verb is described by the doc comment of its arguments
         pub enum Verb {
-            $($verb($args),)+
+            $(#[command(after_help = examples(<$args as Command>::EXAMPLES))] $verb($args),)+
         }
 
         impl Verb {
@@ -56,6 +62,13 @@ macro_rules! verbs {
     };
 }
 
+/// End of a verb's help.
+#[must_use]
+pub fn examples(lines: &[&str]) -> String {
+    let lines = lines.iter().map(|line| format!("\n  {line}"));
+    format!("Examples:{}", lines.collect::<String>())
+}
+
 verbs! {
     Run(run::RunArgs),
     Plan(plan::PlanArgs),
@@ -68,6 +81,9 @@ verbs! {
     Cost(cost::CostArgs),
     Export(export::ExportArgs),
     Law(law::LawArgs),
+    Units(units::UnitsArgs),
+    Completions(completions::CompletionsArgs),
+    Man(man::ManArgs),
 }
 
 /// What a command knows besides its own arguments.

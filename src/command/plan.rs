@@ -20,6 +20,11 @@ pub struct PlanArgs {
 }
 
 impl Command for PlanArgs {
+    const EXAMPLES: &'static [&'static str] = &[
+        "impactlaw plan cases/thesis-4-4.toml",
+        r#"impactlaw plan cases/thesis-4-4.toml --velocity "120 m/s""#,
+    ];
+
     /// Print the plan of every speed.
     ///
     /// # Errors

@@ -46,6 +46,11 @@ pub struct RunArgs {
 }
 
 impl Command for RunArgs {
+    const EXAMPLES: &'static [&'static str] = &[
+        "impactlaw run cases/thesis-4-4.toml",
+        "impactlaw run cases/solder-ball.toml --no-bed --out out/solder",
+    ];
+
     /// Run the verb; all input is read and checked before any work starts.
     ///
     /// # Errors

@@ -37,6 +37,11 @@ pub struct StudyArgs {
 }
 
 impl Command for StudyArgs {
+    const EXAMPLES: &'static [&'static str] = &[
+        "impactlaw study cases/study-480.toml",
+        "impactlaw study cases/study-480.toml --refine 20 --out out/study",
+    ];
+
     /// Run what is not there yet, then write `results.csv`; [`Verdict::Missed`] when a case did not end with status ok.
     ///
     /// # Errors

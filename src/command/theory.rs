@@ -4,12 +4,14 @@ use super::{Command, Context, Verdict};
 use crate::case::Case;
 use crate::contact::rebound::rebound;
 use crate::contact::{LawVisitor, NormalLaw};
+use crate::material::constant::Constant;
 use crate::theory::published::{Publication, left_out};
 use crate::theory::{FORMULAS, Theory};
 use crate::unit::{self, Length, Velocity};
 use crate::{Error, Result};
 use clap::Args;
 use serde::Serialize;
+use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 /// Point of a force-displacement curve. Field names are the CSV header (file contract).
@@ -38,10 +40,15 @@ pub struct RestitutionRow {
 /// Evaluate a theory: force against displacement, or restitution against velocity, as CSV.
 #[derive(Debug, Args)]
 pub struct TheoryArgs {
-    /// Model name, e.g. `hertz`, `thornton`, `kogut-etsion`.
-    pub model: String,
+    /// Print every model: name, papers, what it needs, what it is.
+    #[arg(long, exclusive = true)]
+    pub list: bool,
+    /// Model name, one of `--list`, e.g. `thornton`.
+    #[arg(required_unless_present = "list")]
+    pub model: Option<String>,
     /// Case file: radius and material.
-    pub case: PathBuf,
+    #[arg(required_unless_present = "list")]
+    pub case: Option<PathBuf>,
     /// Displacements with units, e.g. `"1 um"`; prints `displacement_m,force_N,contact_radius_m`.
     #[arg(long, num_args = 1.., value_delimiter = ',')]
     pub displacements: Vec<String>,
@@ -54,23 +61,57 @@ pub struct TheoryArgs {
 }
 
 impl Command for TheoryArgs {
+    const EXAMPLES: &'static [&'static str] = &[
+        "impactlaw theory --list",
+        r#"impactlaw theory thornton cases/thesis-4-4.toml --velocities "1 m/s" "10 m/s""#,
+        r#"impactlaw theory hertz cases/thesis-4-4.toml --displacements "1 um" --max-displacement "2 um""#,
+    ];
+
     /// Print the table the arguments ask for.
     ///
     /// # Errors
     /// [`Error::Argument`] for an unknown theory, a quantity without unit or out of range, or nothing to evaluate; what
     /// [`Case::read`] returns.
     fn run(&self, _context: &Context) -> Result<Verdict> {
-        let case = Case::read(&self.case)?;
-        let publication = match formula(&self.model) {
-            Some(formula) => formula,
-            None => self.model.parse::<Theory>()?.publication(),
-        };
-        for sentence in left_out([publication], &case.material) {
-            tracing::warn!("{sentence}");
+        match (&self.model, &self.case) {
+            (Some(model), Some(case)) => {
+                let case = Case::read(case)?;
+                let publication = match formula(model) {
+                    Some(formula) => formula,
+                    None => model.parse::<Theory>()?.publication(),
+                };
+                for sentence in left_out([publication], &case.material) {
+                    tracing::warn!("{sentence}");
+                }
+                super::print(&table(self, &case)?)?;
+            }
+            _ => super::print(&list())?,
         }
-        super::print(&table(self, &case)?)?;
         Ok(Verdict::Met)
     }
+}
+
+/// Every model with its papers, what it needs and what it is, as text.
+#[must_use]
+pub fn list() -> String {
+    let laws = Theory::ALL.map(|theory| (theory.publication(), "force"));
+    let formulas = FORMULAS.map(|formula| (formula, "no force"));
+    let mut text = String::new();
+    for (model, gives) in laws.into_iter().chain(formulas) {
+        let constants: Vec<String> = model.flow.iter().map(Constant::name).collect();
+        let needs = match constants.is_empty() {
+            true => "needs no yield strength".to_owned(),
+            false => format!("needs a {}", constants.join(", a ")),
+        };
+        let closed = match model.restitution {
+            Some(_) => ", restitution in closed form",
+            None => "",
+        };
+        let _ = writeln!(text, "{:<22}{}", model.name, model.papers.join(", "));
+        let _ = writeln!(text, "{:<22}{}", "", model.summary);
+        let _ = writeln!(text, "{:<22}{needs}; gives {gives}{closed}", "");
+    }
+    text
 }
 
 /// The CSV text for a case that has been read.
@@ -96,14 +137,15 @@ fn formula(name: &str) -> Option<Publication> {
 }
 
 fn force_rows(args: &TheoryArgs, case: &Case) -> Result<Vec<ForceRow>> {
-    if formula(&args.model).is_some() {
+    let model = args.model.as_deref().unwrap_or_default();
+    if formula(model).is_some() {
         return Err(Error::Argument {
             argument: "--displacements".to_owned(),
-            found: args.model.clone(),
+            found: model.to_owned(),
             allowed: "this theory gives restitution only; use --velocities".to_owned(),
         });
     }
-    let theory: Theory = args.model.parse()?;
+    let theory: Theory = model.parse()?;
     let displacements = quantities::<Length>("--displacements", &args.displacements, false)?;
     let peak = args
         .max_displacement
@@ -167,7 +209,8 @@ impl LawVisitor for Forces<'_> {
 fn restitution_rows(args: &TheoryArgs, case: &Case) -> Result<Vec<RestitutionRow>> {
     let velocities = quantities::<Velocity>("--velocities", &args.velocities, true)?;
     let material = &case.material;
-    if let Some(formula) = formula(&args.model) {
+    let model = args.model.as_deref().unwrap_or_default();
+    if let Some(formula) = formula(model) {
         let row = |velocity_m_s| RestitutionRow {
             velocity_m_s,
             restitution: None,
@@ -177,7 +220,7 @@ fn restitution_rows(args: &TheoryArgs, case: &Case) -> Result<Vec<RestitutionRow
         };
         return Ok(velocities.into_iter().map(row).collect());
     }
-    let theory: Theory = args.model.parse()?;
+    let theory: Theory = model.parse()?;
     let integrated = theory.visit(material, Restitutions(case, &velocities))?;
     let row = |(velocity_m_s, e)| RestitutionRow {
         velocity_m_s,

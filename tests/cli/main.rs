@@ -4,6 +4,7 @@ mod bed_resume;
 mod bed_shipped;
 mod cost;
 mod guide;
+mod help;
 mod impact;
 mod killed;
 mod owner;

@@ -16,8 +16,9 @@ fn args(
 ) -> TheoryArgs {
     let owned = |texts: &[&str]| texts.iter().map(|&text| text.to_owned()).collect();
     TheoryArgs {
-        model: model.to_owned(),
-        case: "unused".into(),
+        list: false,
+        model: Some(model.to_owned()),
+        case: None,
         displacements: owned(displacements),
         max_displacement: peak.map(str::to_owned),
         velocities: owned(velocities),
