@@ -31,4 +31,5 @@ mod same_bits;
 mod scene_run;
 mod scenes;
 mod seams;
+mod turning;
 mod two_bodies;

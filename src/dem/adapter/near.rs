@@ -4,7 +4,7 @@ use crate::contact::NormalLaw;
 use crate::dem::adapter::{Key, Ruled, Subject, key};
 use crate::dem::bodies::touching::closest;
 use crate::dem::force::effects::ContactLaw;
-use crate::dem::force::meeting::Meeting;
+use crate::dem::force::meeting::{Course, Meeting, over_surface};
 use parry3d::math::Vector;
 use parry3d::query;
 use rapier3d::dynamics::RigidBody;
@@ -17,6 +17,8 @@ pub(super) struct Near {
     pub second: Subject,
     /// From the second to the first.
     pub normal: Vector,
+    /// The same a step before; the present one where they were apart.
+    pub before: Vector,
     pub overlap: f64,
     pub point: Vector,
 }
@@ -54,6 +56,7 @@ impl<L: NormalLaw, C: ContactLaw> Ruled<L, C> {
             first: *first,
             second: *second,
             normal,
+            before: held.map_or(normal, |held| held.normal),
             overlap,
             point,
         };
@@ -100,39 +103,64 @@ pub(super) fn meeting(world: &PhysicsWorld, near: &Near, dt: f64) -> Meeting {
         Some(body) if body.is_dynamic() => 1.0 / body.mass(),
         _ => 0.0,
     };
-    let at_point = |body: Option<&RigidBody>| {
-        body.map_or(Vector::ZERO, |body| body.velocity_at_point(near.point))
+    let course = |body: Option<&RigidBody>| Course {
+        centre: body.map_or(Vector::ZERO, RigidBody::center_of_mass),
+        velocity: body.map_or(Vector::ZERO, RigidBody::linvel),
+        spin: body.map_or(Vector::ZERO, RigidBody::angvel),
     };
     let centre = |body: Option<&RigidBody>, subject: &Subject| {
         let ball = world.colliders.get(subject.collider);
-        let at = body
+        let (place, at) = body
             .zip(ball)
-            .map(|(body, ball)| body.velocity_at_point(ball.translation()));
-        at.unwrap_or(Vector::ZERO)
+            .map_or_else(Default::default, |(body, ball)| {
+                let place = ball.translation();
+                (place, body.velocity_at_point(place))
+            });
+        Course {
+            centre: place,
+            velocity: at,
+            spin: body.map_or(Vector::ZERO, RigidBody::angvel),
+        }
     };
-    let spin = |body: Option<&RigidBody>| body.map_or(Vector::ZERO, |body| body.angvel());
     let (first, second) = (&near.first, &near.second);
     let radii = [near.first.radius, near.second.radius];
-    let (velocity, spins) = match (near.first.ball, near.second.ball) {
-        (true, true) => (centre(a, first) - centre(b, second), [spin(a), spin(b)]),
-        // the turning of a surface is in the velocity of its point
-        (true, false) if radii[1].is_finite() => {
-            (centre(a, first) - at_point(b), [spin(a), Vector::ZERO])
+    let normals = [near.normal, near.before];
+    let under = course(b);
+    let then = under.halfway(dt);
+    let at = |point: Vector, _: Vector| under.velocity + under.spin.cross(point - then);
+    let over = |grain: &Course, distance: f64| over_surface(grain, at, normals, distance, dt);
+    let ([middle, velocity], spins) = match (first.ball, second.ball) {
+        (true, true) => {
+            let (a, b) = (centre(a, first), centre(b, second));
+            let velocity = a.velocity - b.velocity;
+            let turn = velocity * (0.5 * dt / (radii[0] + radii[1] - near.overlap));
+            ([near.normal - turn, velocity], [a.spin, b.spin])
         }
-        (true, false) => (centre(a, first) - at_point(b), [spin(a), spin(b)]),
-        _ => (at_point(a) - at_point(b), [Vector::ZERO; 2]),
+        (true, false) => {
+            let a = centre(a, first);
+            // the turning of a surface is in the velocity of its point
+            let spin = match radii[1].is_finite() {
+                true => Vector::ZERO,
+                false => under.spin,
+            };
+            (over(&a, radii[0] - near.overlap), [a.spin, spin])
+        }
+        _ => {
+            let at_point = |body: Option<&RigidBody>| {
+                body.map_or(Vector::ZERO, |body| body.velocity_at_point(near.point))
+            };
+            let middle = (near.normal + near.before).normalize_or(near.normal);
+            ([middle, at_point(a) - at_point(b)], [Vector::ZERO; 2])
+        }
     };
     Meeting {
         overlap: near.overlap,
         normal: near.normal,
+        middle,
         velocity,
         spins,
         radii,
         materials: [0; 2],
-        inverse_distance: match near.first.ball && near.second.ball {
-            true => 1.0 / (radii[0] + radii[1] - near.overlap),
-            false => 0.0,
-        },
         mass: 1.0 / (inverse(a) + inverse(b)),
         dt,
     }

@@ -7,7 +7,7 @@ use crate::dem::bodies::machine::{Machine, Surface};
 use crate::dem::bodies::touching::{Scratch, Touch, Touches, closest, minima};
 use crate::dem::force::effects::ContactLaw;
 use crate::dem::force::losses::Losses;
-use crate::dem::force::meeting::Meeting;
+use crate::dem::force::meeting::{Course, Meeting, over_surface};
 use crate::dem::force::mixture::RIGID;
 use crate::dem::force::normal::{Histories, NormalModel, Squeeze};
 use crate::dem::grains::Grains;
@@ -187,14 +187,27 @@ impl<C: ContactLaw> Situation<'_, C> {
         let body = &self.machine.stations[surface];
         let (normal, distance) = near.unwrap_or((patch.normal, sphere.radius));
         let point = sphere.centre - normal * distance;
-        let surface_velocity = body.surface_velocity(point, normal);
+        let before = patch.push.touches().then_some(patch.normal);
+        let course = Course {
+            centre: sphere.centre,
+            velocity: motion.velocity,
+            spin: self.grains.spins[grain].rate,
+        };
+        let then = body.half_before(self.dt);
+        let [middle, velocity] = over_surface(
+            &course,
+            |point, normal| then.surface_velocity(point, normal),
+            [normal, before.unwrap_or(normal)],
+            distance,
+            self.dt,
+        );
         let meeting = Meeting {
             overlap: sphere.radius - distance,
             normal,
-            velocity: motion.velocity - surface_velocity,
-            spins: [self.grains.spins[grain].rate, body.surface_spin()],
+            middle,
+            velocity,
+            spins: [course.spin, body.surface_spin()],
             radii: [sphere.radius, f64::INFINITY],
-            inverse_distance: 0.0,
             mass: 1.0 / (motion.inverse_mass + body.inverse_mass),
             dt: self.dt,
             materials: [

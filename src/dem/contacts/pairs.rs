@@ -90,13 +90,14 @@ fn meeting<C: ContactLaw>(
 ) -> Meeting {
     let (i, j) = (i as usize, j as usize);
     let (a, b) = (&grains.motions[i], &grains.motions[j]);
+    let velocity = a.velocity - b.velocity;
     Meeting {
         overlap: squeeze.overlap,
         normal,
-        velocity: a.velocity - b.velocity,
+        middle: normal - velocity * (0.5 * dt * inverse_distance),
+        velocity,
         spins: [grains.spins[i].rate, grains.spins[j].rate],
         radii: squeeze.radii,
-        inverse_distance,
         mass: 1.0 / (a.inverse_mass + b.inverse_mass),
         dt,
         materials: if C::BY_MATERIAL {

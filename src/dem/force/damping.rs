@@ -157,8 +157,7 @@ impl Effect for Viscous {
             contact.normal_force = whole;
         }
         contact.dashpot = self.across;
-        let past = contact.past().approach;
-        losses.damping += 0.5 * m.dt * (before * past + *dashpot * contact.approach);
+        losses.damping += 0.5 * m.dt * (before + *dashpot) * contact.approach;
     }
 
     #[inline(always)]

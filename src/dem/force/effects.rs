@@ -5,8 +5,12 @@
 //!
 //! Signs: the normal points from the second body to the first, the force acts on the first.
 //!
-//! **Energy ledger.** Velocities live half a step before the positions, so the work a force does between two
-//! evaluations is the mean of the forces of both times the slip of the step, exactly as the integrator spends it. Each effect
+//! **One time.** Velocities live half a step before the positions. Slip, rolling and approach are therefore measured along the
+//! normal of that time, [`Meeting::middle`]: seen along the present normal, a grain that rolls slips by part of its spin about
+//! the line of centres, always to the same side, and never rolls off. What springs hold turns with the normal.
+//!
+//! **Energy ledger.** The work a force does between two evaluations is the mean of the forces of both times the slip of the
+//! step between, as the integrator spends it. Each effect
 //! books what it dissipates and tells what it stores; the normal law tells both from its own state. Nothing is booked as what
 //! is left over: that is the imbalance.
 
@@ -70,9 +74,11 @@ pub struct Contact<'a> {
     pub pressed: Pressed,
     /// Push of the step before.
     pub before: &'a Push,
-    /// Rate of approach, m/s.
+    /// Unit normal in the middle of the step.
+    pub middle: Vector,
+    /// Rate of approach along it, m/s.
     pub approach: f64,
-    /// Relative velocity of the centres across the normal, m/s.
+    /// Relative velocity of the centres across it, m/s.
     pub passing: Vector,
     /// Distances from the centres to the point of contact, m; none for a surface, whose turning is in its velocity.
     pub arms: [f64; 2],
@@ -91,29 +97,24 @@ impl Contact<'_> {
     pub fn slip(&self) -> Vector {
         let m = self.meeting;
         let turning = m.spins[0] * self.arms[0] + m.spins[1] * self.arms[1];
-        self.passing - turning.cross(m.normal)
+        // over the distance of that time, to which the arms are scaled with it
+        self.passing - turning.cross(m.middle)
     }
 
-    /// The step before.
+    /// A vector across the normal of the step before, turned with the contact: as the normal has turned, and about it by what
+    /// both bodies turned in the mean.
+    ///
+    /// A reflection across the plane of the middle turns such a vector by twice its angle to that plane, and keeps its length.
+    /// What is not across the present normal, by rounding or where another normal came before, is taken off.
     #[inline(always)]
     #[must_use]
-    pub fn past(&self) -> Past {
+    pub fn turned(&self, vector: Vector) -> Vector {
         let m = self.meeting;
-        let turn = self.passing * (m.dt * m.inverse_distance);
-        let normal = m.normal - turn;
-        Past {
-            approach: self.approach + self.passing.dot(turn),
-            across: self.before.force - normal * self.before.force.dot(normal),
-        }
+        let turned = vector - self.middle * (2.0 * vector.dot(self.middle));
+        let across = turned - m.normal * turned.dot(m.normal);
+        let twist = 0.5 * m.dt * (m.spins[0] + m.spins[1]).dot(self.middle);
+        across * (1.0 - 0.5 * twist * twist) + m.normal.cross(across) * twist
     }
-}
-
-/// The step before, seen along the normal it had.
-pub struct Past {
-    /// Rate of approach of this step's motion along that normal, m/s.
-    pub approach: f64,
-    /// Force across it, N.
-    pub across: Vector,
 }
 
 /// Effects in the order in which they act: `()`, `((), A)`, `(((), A), B)` and so on.
@@ -300,13 +301,15 @@ impl<L: EffectList> ContactLaw for Law<L> {
             stiffness: pressed.stiffness * self.softening,
             ..*pressed
         };
-        let approach = -m.velocity.dot(m.normal);
+        let middle = m.middle / m.middle.length();
+        let approach = -m.velocity.dot(middle);
         let mut contact = Contact {
             meeting,
             pressed,
             before,
+            middle,
             approach,
-            passing: m.velocity + m.normal * approach,
+            passing: m.velocity + middle * approach,
             arms: lever_arms(m, &pressed),
             normal_force: pressed.force,
             across: Vector::ZERO,

@@ -108,16 +108,18 @@ impl Effect for Mindlin {
             0.0
         };
         let limit = self.friction * contact.normal_force;
-        let slide = spring.advance(slip * m.dt, m.normal, stiffness, limit);
+        let held = contact.turned(spring.load);
+        let slide = spring.advance(held, slip * m.dt, m.normal, stiffness, limit);
         losses.friction += slide.loss;
         let mut force = spring.load;
         if contact.dashpot > 0.0 {
-            force -= slip * (contact.dashpot * (m.mass * stiffness).sqrt());
+            let damped = slip - m.normal * slip.dot(m.normal);
+            force -= damped * (contact.dashpot * (m.mass * stiffness).sqrt());
             let size = force.length_squared();
             if size > limit * limit {
                 force *= limit / size.sqrt();
             }
-            let spent = -0.5 * m.dt * (contact.past().across + force).dot(slip);
+            let spent = -0.5 * m.dt * (contact.turned(contact.before.force) + force).dot(slip);
             losses.damping += spent - slide.work;
         }
         contact.across += force;

@@ -69,14 +69,15 @@ impl Effect for RollingSpring {
         let (m, force) = (contact.meeting, contact.normal_force);
         let radius = m.effective_radius();
         let relative = m.spins[0] - m.spins[1];
-        let rolling = relative - m.normal * relative.dot(m.normal);
+        let rolling = relative - contact.middle * relative.dot(contact.middle);
         let stiffness = if force > 0.0 {
             self.shear.stiffness(contact.pressed.contact_radius, m) * radius * radius
         } else {
             0.0
         };
         let limit = self.resistance * radius * force;
-        let slide = spring.advance(rolling * m.dt, m.normal, stiffness, limit);
+        let held = contact.turned(spring.load);
+        let slide = spring.advance(held, rolling * m.dt, m.normal, stiffness, limit);
         losses.rolling += slide.loss;
     }
 

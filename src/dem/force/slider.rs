@@ -31,19 +31,21 @@ impl Slider {
         0.5 * self.load.length_squared() * self.compliance
     }
 
-    /// Advances by `stretch` (m or rad) in the plane of `normal`, with the present `stiffness`, up to `limit`.
+    /// Advances by `stretch` (m or rad) with the present `stiffness`, up to `limit`; `held` is the load turned to where it acts
+    /// now, across `normal`, and what of the stretch is not across it does not count.
     #[inline(always)]
     pub fn advance(
         &mut self,
+        held: Vector,
         stretch: Vector,
         normal: Vector,
         stiffness: f64,
         limit: f64,
     ) -> Slide {
-        let held = self.energy();
-        let before = turned_into_plane(self.load, normal);
+        let stored = self.energy();
         let softened = (stiffness * self.compliance).min(1.0);
-        let mut load = before * softened - stretch * stiffness;
+        let stretch = stretch - normal * stretch.dot(normal);
+        let mut load = held * softened - stretch * stiffness;
         let size = load.length_squared();
         if size > limit * limit {
             load *= limit / size.sqrt();
@@ -54,28 +56,10 @@ impl Slider {
             0.0
         };
         *self = Slider { load, compliance };
-        let work = -0.5 * (before + load).dot(stretch);
+        let work = -0.5 * (held + load).dot(stretch);
         Slide {
             work,
-            loss: work + held - self.energy(),
+            loss: work + stored - self.energy(),
         }
-    }
-}
-
-/// The vector laid into the plane of `normal`, its length kept: how a spring follows a contact that turns.
-#[inline(always)]
-fn turned_into_plane(vector: Vector, normal: Vector) -> Vector {
-    let across = vector.dot(normal);
-    let flat = vector - normal * across;
-    let (length, lost) = (vector.length_squared(), across * across);
-    if lost < 1e-5 * length {
-        let part = lost / length;
-        return flat * (1.0 + part * (0.5 + 0.375 * part));
-    }
-    let flat_length = flat.length_squared();
-    if flat_length > 0.0 {
-        flat * (length / flat_length).sqrt()
-    } else {
-        flat
     }
 }

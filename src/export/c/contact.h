@@ -2,7 +2,8 @@
  *
  * Everything is written for a first body and a second one: the unit normal points from the second to the first, forces
  * and moments act on the first. The velocities are those half a step before the positions, as a leapfrog or velocity
- * Verlet scheme has them when forces are due.
+ * Verlet scheme has them when forces are due. Slip, rolling and approach are seen along the normal of that time, and what
+ * springs hold turns with the normal; a surface is taken to be flat there.
  *
  * damping   F_d = 2 zeta sqrt(m (k + F/z)/2) v, k = dF/d(overlap) and F/z tangent and secant stiffness of the law (z: the
  *           overlap since its force was zero), m the effective mass; the sum with the law's force never pulls. With
@@ -109,19 +110,48 @@ static inline double law_rubbing_viscosity(double damping, double stiffness, dou
     return 2.0 * sqrt(5.0 / 6.0) * (damping < 1.0 ? damping : 1.0) * sqrt(mass * stiffness);
 }
 
-/* Advances a spring by `stretch` in the plane of `normal`, with the present stiffness, up to `limit`. */
-static inline void law_slide(law_slider *s, const double *stretch, const double *normal, double stiffness,
-                                double limit)
+/* From the second centre to the first in the middle of the step, over the present distance; on a surface the normal. */
+static inline void law_middle(const law_meeting *m, const double *arms, double *middle)
 {
-    const double held = law_dot(s->load, s->load), out = law_dot(s->load, normal);
-    double flat[3], flat_square, size;
-    double follow = 1.0;
+    const double turn = m->radii[1] > 0.0 ? 0.5 * m->dt / (arms[0] + arms[1]) : 0.0;
     int k;
-    for (k = 0; k < 3; k++) flat[k] = s->load[k] - out * normal[k];
-    flat_square = law_dot(flat, flat);
-    if (flat_square > 0.0) follow = sqrt(held / flat_square); /* the load is turned with the contact, not shortened */
-    if (stiffness < s->stiffness) follow *= stiffness / s->stiffness;
-    for (k = 0; k < 3; k++) s->load[k] = follow * flat[k] - stiffness * stretch[k];
+    for (k = 0; k < 3; k++) middle[k] = m->normal[k] - turn * m->velocity[k];
+}
+
+/* Takes off what of a vector lies along another. */
+static inline void law_lay_across(double *vector, const double *along)
+{
+    const double part = law_dot(vector, along) / law_dot(along, along);
+    int k;
+    for (k = 0; k < 3; k++) vector[k] -= part * along[k];
+}
+
+/* Turns what was across the normal of the step before with the contact: by a reflection across the plane of the middle, and
+   about the normal by what both bodies turned in the mean. */
+static inline void law_turn(const law_meeting *m, const double *middle, double *vector)
+{
+    const double square = law_dot(middle, middle);
+    const double twice = 2.0 * law_dot(vector, middle) / square;
+    const double twist = 0.5 * m->dt * (law_dot(m->spins[0], middle) + law_dot(m->spins[1], middle)) / sqrt(square);
+    double aside[3];
+    int k;
+    for (k = 0; k < 3; k++) vector[k] -= twice * middle[k];
+    law_lay_across(vector, m->normal);
+    law_cross(m->normal, vector, aside);
+    for (k = 0; k < 3; k++) vector[k] = (1.0 - 0.5 * twist * twist) * vector[k] + twist * aside[k];
+}
+
+/* Advances a spring by `stretch`, with the present stiffness, up to `limit`. */
+static inline void law_slide(law_slider *s, const double *stretch, const law_meeting *m, const double *middle,
+                                double stiffness, double limit)
+{
+    const double follow = stiffness < s->stiffness ? stiffness / s->stiffness : 1.0;
+    double flat[3], size;
+    int k;
+    law_turn(m, middle, s->load);
+    for (k = 0; k < 3; k++) flat[k] = stretch[k];
+    law_lay_across(flat, m->normal);
+    for (k = 0; k < 3; k++) s->load[k] = follow * s->load[k] - stiffness * flat[k];
     size = law_dot(s->load, s->load);
     if (size > limit * limit)
         for (k = 0; k < 3; k++) s->load[k] *= limit / sqrt(size);
@@ -148,30 +178,41 @@ static inline double law_shear(const law_pressed *p, double normal_force, int on
 }
 
 /* Tangential force on the first body at the relative velocity `slip` of the touching points. */
-static inline void law_rub(const law_effects *e, const law_meeting *m, const double *slip, double stiffness,
-                              double normal_force, law_slider *spring, double *force)
+static inline void law_rub(const law_effects *e, const law_meeting *m, const double *middle, const double *slip,
+                              double stiffness, double normal_force, law_slider *spring, double *force)
 {
     const double limit = e->friction * normal_force;
     const double viscous = law_rubbing_viscosity(e->damping, stiffness, m->mass);
-    double stretch[3], size;
+    double stretch[3], rate[3], size;
     int k;
-    for (k = 0; k < 3; k++) stretch[k] = slip[k] * m->dt;
-    law_slide(spring, stretch, m->normal, stiffness, limit);
-    for (k = 0; k < 3; k++) force[k] = spring->load[k] - viscous * slip[k];
+    for (k = 0; k < 3; k++) {
+        stretch[k] = slip[k] * m->dt;
+        rate[k] = slip[k];
+    }
+    law_slide(spring, stretch, m, middle, stiffness, limit);
+    law_lay_across(rate, m->normal);
+    for (k = 0; k < 3; k++) force[k] = spring->load[k] - viscous * rate[k];
     size = law_dot(force, force);
     if (size > limit * limit)
         for (k = 0; k < 3; k++) force[k] *= limit / sqrt(size);
 }
 
-/* Velocity of the first body's touching point relative to the second's, in the plane of contact. */
-static inline void law_slip(const law_meeting *m, const double *arms, double *slip)
+/* Velocity of the first body's touching point relative to the second's, across the normal of its time. */
+static inline void law_slip(const law_meeting *m, const double *arms, const double *middle, double *slip)
 {
-    const double away = law_dot(m->velocity, m->normal);
     double turning[3], rolled[3];
     int k;
     for (k = 0; k < 3; k++) turning[k] = m->spins[0][k] * arms[0] + m->spins[1][k] * arms[1];
-    law_cross(turning, m->normal, rolled);
-    for (k = 0; k < 3; k++) slip[k] = m->velocity[k] - away * m->normal[k] - rolled[k];
+    law_cross(turning, middle, rolled);
+    for (k = 0; k < 3; k++) slip[k] = m->velocity[k];
+    law_lay_across(slip, middle);
+    for (k = 0; k < 3; k++) slip[k] -= rolled[k];
+}
+
+/* Rate of approach, along the normal of its time. */
+static inline double law_approach(const law_meeting *m, const double *middle)
+{
+    return -law_dot(m->velocity, middle) / sqrt(law_dot(middle, middle));
 }
 
 /* Everything the contact does: `p` is the pressed law, `spring` and `roller` its springs. */
@@ -180,19 +221,20 @@ static inline law_push law_meet(const law_effects *e, const law_meeting *m, cons
 {
     const int on_surface = m->radii[1] <= 0.0;
     const double arms[2] = {m->radii[0] - p->flattening[0], on_surface ? 0.0 : m->radii[1] - p->flattening[1]};
-    const double normal_force = law_damped(e, p, -law_dot(m->velocity, m->normal), m->mass, m->dt);
-    const double stiffness = law_shear(p, normal_force, on_surface);
+    double middle[3], slip[3], couple[3], normal_force, stiffness;
     law_push push;
-    double slip[3], couple[3];
     int k;
+    law_middle(m, arms, middle);
+    normal_force = law_damped(e, p, law_approach(m, middle), m->mass, m->dt);
+    stiffness = law_shear(p, normal_force, on_surface);
     push.normal_force = normal_force;
     for (k = 0; k < 3; k++) {
         push.force[k] = 0.0;
         push.torque[0][k] = push.torque[1][k] = 0.0;
     }
     if (e->friction > 0.0) {
-        law_slip(m, arms, slip);
-        law_rub(e, m, slip, stiffness, normal_force, spring, push.force);
+        law_slip(m, arms, middle, slip);
+        law_rub(e, m, middle, slip, stiffness, normal_force, spring, push.force);
         law_cross(push.force, m->normal, couple);
         for (k = 0; k < 3; k++) {
             push.torque[0][k] = arms[0] * couple[k];
@@ -202,11 +244,10 @@ static inline law_push law_meet(const law_effects *e, const law_meeting *m, cons
     for (k = 0; k < 3; k++) push.force[k] += normal_force * m->normal[k];
     if (e->rolling > 0.0) {
         const double radius = on_surface ? m->radii[0] : m->radii[0] * m->radii[1] / (m->radii[0] + m->radii[1]);
-        double turn[3], along;
+        double turn[3];
         for (k = 0; k < 3; k++) turn[k] = (m->spins[0][k] - m->spins[1][k]) * m->dt;
-        along = law_dot(turn, m->normal);
-        for (k = 0; k < 3; k++) turn[k] -= along * m->normal[k];
-        law_slide(roller, turn, m->normal, stiffness * radius * radius, e->rolling * radius * normal_force);
+        law_lay_across(turn, middle);
+        law_slide(roller, turn, m, middle, stiffness * radius * radius, e->rolling * radius * normal_force);
         for (k = 0; k < 3; k++) {
             push.torque[0][k] += roller->load[k];
             push.torque[1][k] -= roller->load[k];

@@ -56,17 +56,20 @@ namespace ContactModels
 
       // The slip at the point of contact of this law; LIGGGHTS' own lies half the overlap inside a wall.
       const double arms[2] = {sidata.cri, sidata.is_wall ? 0.0 : sidata.crj};
-      double slip[3];
+      double middle[3], slip[3];
+      m.radii[0] = sidata.radi;
+      m.radii[1] = sidata.is_wall ? 0.0 : sidata.radj;
       for (int k = 0; k < 3; k++) {
         m.velocity[k] = sidata.v_i[k] - sidata.v_j[k];
         m.spins[0][k] = sidata.omega_i[k];
         m.spins[1][k] = sidata.is_wall ? 0.0 : sidata.omega_j[k];
       }
-      law_slip(&m, arms, slip);
+      law_middle(&m, arms, middle);
+      law_slip(&m, arms, middle, slip);
       const double stiffness = sidata.Fn > 0.0 ? sidata.kt : 0.0;
       const double limit = effects.friction * sidata.Fn;
       double pull[3], couple[3];
-      law_rub(&effects, &m, slip, stiffness, sidata.Fn, &spring, pull);
+      law_rub(&effects, &m, middle, slip, stiffness, sidata.Fn, &spring, pull);
       for (int k = 0; k < 3; k++) pull[k] = spring.load[k] - (stiffness > 0.0 ? sidata.gammat * slip[k] : 0.0);
       const double size = law_dot(pull, pull);
       if (size > limit * limit)

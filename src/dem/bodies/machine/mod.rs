@@ -50,6 +50,16 @@ impl Station {
         }
     }
 
+    /// The same half a step of `dt` (s) before, the time of its velocities.
+    #[inline(always)]
+    #[must_use]
+    pub fn half_before(&self, dt: f64) -> Self {
+        Self {
+            centre: self.centre - self.velocity * (0.5 * dt),
+            ..*self
+        }
+    }
+
     /// Angular velocity (rad/s) of the surface.
     #[inline(always)]
     #[must_use]
