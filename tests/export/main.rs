@@ -3,6 +3,7 @@
 mod bed;
 mod c;
 mod codes;
+mod damping;
 mod granular;
 mod lammps;
 mod liggghts;

@@ -22,6 +22,7 @@ use crate::bed::view::portrait::{Cast, Portrait};
 use crate::dem::bodies::enclosure::Room;
 use crate::dem::bodies::machine::Machine;
 use crate::dem::dynamics::Parts;
+use crate::dem::force::damping::USUAL_STEPS;
 use crate::dem::force::named::Constants;
 use crate::dem::grains::Grains;
 use crate::law::{AnyLaw, LawFile};
@@ -168,7 +169,7 @@ fn parts(scene: &Scene, start: &Start) -> Result<Parts> {
         grains,
         machine,
         gravity: scene.gravity,
-        dt: Terms::of(scene).limits.rayleigh(1.0),
+        dt: Terms::of(scene, USUAL_STEPS).limits.rayleigh(1.0),
         skin: SKIN * scene.radii()[1],
     })
 }
@@ -206,7 +207,8 @@ pub(in crate::bed) fn pack(scene: &Scene, start: &mut Start, options: &Options) 
     );
     let checkpoint = checkpoint("packing", options);
     let plan = format!("{} {:?} packing", scene.hash, options.seed);
-    let terms = Terms::of(scene);
+    // how fast a packing settles is a means: the usual steps do
+    let terms = Terms::of(scene, USUAL_STEPS);
     let flows = (start.feed.clone(), Drain::new(&scene.outlets));
     let mut run = Run::new(bed, terms, start.room, flows, &scene.measures, &mut watch);
     let stages: Vec<&Stage> = scene.stages.iter().filter(|s| s.prepares()).collect();
@@ -229,6 +231,7 @@ fn under_law(
     options: &Options,
 ) -> Result<LawRun> {
     let began = Instant::now();
+    let steps = time_step::steps_under(scene, &laws)?;
     let recipe = Recipe {
         pairs: &scene.pairs,
         ..recipe(scene, laws, &scene.contact)
@@ -237,7 +240,7 @@ fn under_law(
     let bed = assemble(&recipe, parts(scene, start)?)?;
     let mut watch = Watch::new(name, &folder(options, name), scene.output, options);
     let checkpoint = checkpoint(name, options);
-    let terms = Terms::of(scene);
+    let terms = Terms::of(scene, steps);
     let flows = (start.feed.clone(), Drain::new(&scene.outlets));
     let mut run = Run::new(bed, terms, start.room, flows, &scene.measures, &mut watch);
     let stages: Vec<&Stage> = scene.stages.iter().filter(|s| !s.prepares()).collect();

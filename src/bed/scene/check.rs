@@ -6,6 +6,8 @@ use crate::dem::bodies::{Mobility, Solid};
 
 /// Shortest period over the largest radius: twice the distance up to which neighbours are listed.
 const SHORTEST_PERIOD: f64 = 6.0;
+/// What a region may reach beyond its limits, over its edge: rounding of decimal numbers.
+const REGION_SLACK: f64 = 1e-9;
 
 impl Scene {
     pub(super) fn check_room(&self) -> Result<()> {
@@ -50,6 +52,48 @@ impl Scene {
             if periodic && *edge < SHORTEST_PERIOD * largest {
                 let allowed = "must be at least three grain diameters where it is a period, or two grains meet through both sides";
                 return Err(document.reject(key, allowed));
+            }
+        }
+        Ok(())
+    }
+
+    /// That no group comes in beyond the walls of the box, or beyond the domain: its grains would be lost before the first step.
+    pub(super) fn check_regions(&self) -> Result<()> {
+        let (limits, place) = match (&self.container, self.domain) {
+            (Some(container), _) => {
+                let edge = |periodic: bool, edge: f64| match periodic {
+                    true => [f64::NEG_INFINITY, f64::INFINITY],
+                    false => [0.0, edge],
+                };
+                let x = edge(container.periodic[0], container.width);
+                let y = edge(container.periodic[1], container.depth);
+                // above its rim a box is open
+                ([x, y, [0.0, f64::INFINITY]], "the walls of `[box]`")
+            }
+            (None, Some([low, high])) => (
+                [0, 1, 2].map(|axis| [low[axis], high[axis]]),
+                "the `[domain]`",
+            ),
+            (None, None) => return Ok(()),
+        };
+        for group in &self.groups {
+            let Some(region) = group.region else { continue };
+            let [low, high] = region.corners();
+            for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
+                let [least, most] = limits[axis];
+                let slack = REGION_SLACK * (high[axis] - low[axis]);
+                if low[axis] < least - slack || high[axis] > most + slack {
+                    let mm = |length: f64| format!("{:.3}", 1e3 * length);
+                    let allowed = format!(
+                        "must lie within {place}: it reaches from {} to {} mm along {name}, they from {} to {} mm",
+                        mm(low[axis]),
+                        mm(high[axis]),
+                        mm(least),
+                        mm(most)
+                    );
+                    let key = format!("{}.region", group.key);
+                    return Err(self.document.reject(&key, allowed));
+                }
             }
         }
         Ok(())

@@ -201,6 +201,7 @@ impl Scene {
             output: file.output.check(document)?,
         };
         scene.check_room()?;
+        scene.check_regions()?;
         scene.check_moves()?;
         Ok(scene)
     }

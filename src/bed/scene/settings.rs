@@ -98,18 +98,18 @@ pub(super) struct TimeTable {
 pub struct TimeStep {
     /// Largest share of the Rayleigh time.
     pub rayleigh_fraction: f64,
-    /// Least number of steps in the half oscillation of a grain on its stiffest contact.
-    pub steps_per_contact: f64,
+    /// Least number of steps in the half oscillation of a grain on its stiffest contact; none: as many as the restitution asks for.
+    pub steps_per_contact: Option<f64>,
     /// The scene's own time step, s: used as it is, and checked against the two limits.
     pub step: Option<f64>,
 }
 
 impl Default for TimeStep {
-    /// Usual DEM practice: a fifth of the Rayleigh time, twenty steps a contact.
+    /// Usual DEM practice: a fifth of the Rayleigh time, twenty steps a contact or more.
     fn default() -> Self {
         Self {
             rayleigh_fraction: 0.2,
-            steps_per_contact: 20.0,
+            steps_per_contact: None,
             step: None,
         }
     }
@@ -125,12 +125,17 @@ impl TimeTable {
                 |f| f > 0.0 && f <= 0.5,
                 "must lie in (0, 0.5], e.g. 0.2; a larger time step is unstable in a packing",
             )?,
-            steps_per_contact: document.check(
-                "time.steps_per_contact",
-                self.steps_per_contact.unwrap_or(usual.steps_per_contact),
-                |n| (8.0..=1e6).contains(&n),
-                "must lie in [8, 1e6], e.g. 20; fewer steps cannot follow a contact",
-            )?,
+            steps_per_contact: self
+                .steps_per_contact
+                .map(|steps| {
+                    document.check(
+                        "time.steps_per_contact",
+                        steps,
+                        |n| (8.0..=1e6).contains(&n),
+                        "must lie in [8, 1e6], e.g. 20; fewer steps cannot follow a contact",
+                    )
+                })
+                .transpose()?,
             step: self
                 .step
                 .map(|step| document.positive("time.step", step))

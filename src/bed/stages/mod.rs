@@ -64,16 +64,16 @@ pub struct Terms {
 }
 
 impl Terms {
-    /// Terms of a scene.
+    /// Terms of a scene, with at least `steps` a contact where the scene does not say.
     #[must_use]
-    pub fn of(scene: &Scene) -> Self {
+    pub fn of(scene: &Scene, steps: f64) -> Self {
         Self {
             gravity: scene.gravity,
             material: *scene.material(),
             smallest: scene.radii()[0],
             radius: scene.radius(),
             softening: scene.contact.softening(),
-            limits: Limits::of(scene.time, &scene.groups, &scene.materials),
+            limits: Limits::of(scene.time, &scene.groups, &scene.materials, steps),
             rows: scene.output.rows,
         }
     }

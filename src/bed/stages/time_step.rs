@@ -3,10 +3,13 @@
 
 use crate::Result;
 use crate::bed::scene::{Change, GrainMaterial, Group, Scene, Stage, TimeStep};
+use crate::contact::{LawVisitor, NormalLaw};
 use crate::dem::bodies::belt::Belt;
 use crate::dem::bodies::motion::Motion;
 use crate::dem::bodies::{Body, Mobility};
 use crate::dem::dynamics::state::Packing;
+use crate::dem::force::damping::{USUAL_STEPS, steps_for};
+use crate::law::AnyLaw;
 use crate::material::Material;
 use crate::unit::engineering;
 use std::f64::consts::PI;
@@ -76,10 +79,44 @@ pub fn flattening(material: &Material, speed: f64, softening: f64) -> f64 {
     (1.25 * PI * ratio).powf(0.4)
 }
 
+/// Visits a law for the power of its first loading.
+struct FirstPower;
+
+/// Flattening over R so small that a law is what it is from the first touch on.
+const FIRST: f64 = 1e-6;
+
+impl LawVisitor for FirstPower {
+    type Output = f64;
+
+    fn visit<L: NormalLaw>(self, law: &L) -> f64 {
+        let state = law.state(FIRST, &mut L::History::default());
+        state.stiffness * state.depth / state.force
+    }
+}
+
+/// Least steps a contact that the restitutions of a scene ask for under `laws`.
+///
+/// # Errors
+/// Those of the laws.
+pub fn steps_under(scene: &Scene, laws: &[AnyLaw]) -> Result<f64> {
+    let pairs = scene.pairs.iter().map(|pair| &pair.contact);
+    let asked = pairs
+        .chain([&scene.contact])
+        .filter_map(|contact| contact.restitution);
+    let least = asked.fold(1.0, f64::min);
+    let mut steps = USUAL_STEPS;
+    for law in laws {
+        steps = steps.max(steps_for(least, law.visit(FirstPower)?));
+    }
+    Ok(steps)
+}
+
 /// What bounds the time step of a scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
     settings: TimeStep,
+    /// Least steps a contact.
+    steps: f64,
     /// Shortest impact of two grains at 1 m/s and full stiffness, s.
     impact: f64,
     /// Shortest Rayleigh time of a grain at full stiffness, s.
@@ -91,9 +128,15 @@ pub struct Limits {
 }
 
 impl Limits {
-    /// Limits for groups of grains, their materials among `materials`.
+    /// Limits for groups of grains, their materials among `materials`, with at least `steps` a contact where the scene does not
+    /// say.
     #[must_use]
-    pub fn of(settings: TimeStep, groups: &[Group], materials: &[GrainMaterial]) -> Self {
+    pub fn of(
+        settings: TimeStep,
+        groups: &[Group],
+        materials: &[GrainMaterial],
+        steps: f64,
+    ) -> Self {
         let smallest = |group: &Group| group.sizes.limits()[0];
         let least = |value: &dyn Fn(&Group) -> f64| {
             let values = groups.iter().map(value);
@@ -102,6 +145,7 @@ impl Limits {
         let material = |group: &Group| &materials[group.material].material;
         Self {
             settings,
+            steps: settings.steps_per_contact.unwrap_or(steps),
             impact: least(&|group| impact_time(material(group), smallest(group), 1.0)),
             rayleigh: least(&|group| rayleigh_time(material(group), smallest(group))),
             smallest: least(&smallest),
@@ -135,12 +179,9 @@ impl Limits {
     ) -> std::result::Result<f64, String> {
         // contacts that are there, and those the fastest may begin before the next look: two grains head on, or a grain
         // on a body; a body's impact at a speed lasts as long as that of two grains at twice the speed
-        let (speed, least) = (
-            packing.max_speed + body_speed,
-            self.settings.steps_per_contact,
-        );
+        let speed = packing.max_speed + body_speed;
         let coming = self.impact / (softening * softening * 2.0 * speed).powf(0.2);
-        let contact = packing.contact_time.min(coming) / least;
+        let contact = packing.contact_time.min(coming) / self.steps;
         let way = LONGEST_WAY * self.smallest / speed;
         let rayleigh = self.settings.rayleigh_fraction * self.rayleigh / softening.sqrt();
         let limit = rayleigh.min(contact).min(way);
@@ -164,7 +205,7 @@ impl Limits {
     }
 }
 
-/// That no body is told, or sent off, so fast that every grain it hits would be flattened by its whole radius: far beyond
+/// That no body and no grain is told, or sent off, so fast that every grain it hits would be flattened by its whole radius: far beyond
 /// all contact laws, whatever the damping; and that the scene's own time step is within the Rayleigh limit.
 ///
 /// # Errors
@@ -178,8 +219,8 @@ pub fn check(scene: &Scene) -> Result<()> {
         step: None,
         ..scene.time
     };
-    let limit =
-        Limits::of(following, &scene.groups, &scene.materials).rayleigh(scene.contact.softening());
+    let limit = Limits::of(following, &scene.groups, &scene.materials, USUAL_STEPS)
+        .rayleigh(scene.contact.softening());
     if step <= limit {
         return Ok(());
     }
@@ -204,7 +245,7 @@ fn check_speeds(scene: &Scene) -> Result<()> {
     for (key, speed) in told_speeds(scene) {
         if speed > fastest {
             let allowed = format!(
-                "must be slower: at {} every grain it hits would be flattened by more than its radius, where no contact law holds; at most {}, or stiffer grains",
+                "must be slower: at {} every grain that is hit would be flattened by more than its radius, where no contact law holds; at most {}, or stiffer grains",
                 engineering(speed, "m/s", 3),
                 engineering(fastest, "m/s", 3)
             );
@@ -219,7 +260,8 @@ fn belt_speed(body: &Body, belt: &Belt) -> f64 {
     belt.fastest(body.solid.reach() + (body.centre - belt.about).length())
 }
 
-/// Largest speed (m/s) of each body of a scene that has one, and of each that a stage gives one, with its key.
+/// Largest speed (m/s) of each group of grains, of each body of a scene that has one, and of each that a stage gives one, with
+/// its key.
 fn told_speeds(scene: &Scene) -> Vec<(String, f64)> {
     let arm = |body: &Body, motion: &Motion| {
         // a plane has no end: without a turn its arm does not matter
@@ -230,6 +272,10 @@ fn told_speeds(scene: &Scene) -> Vec<(String, f64)> {
         if turns { body.solid.reach() + off } else { 0.0 }
     };
     let mut speeds = Vec::new();
+    for group in &scene.groups {
+        let speed = group.velocity.length();
+        speeds.push((format!("{}.velocity", group.key), speed));
+    }
     for (index, body) in scene.bodies.iter().enumerate() {
         match &body.mobility {
             Mobility::Fixed => {}

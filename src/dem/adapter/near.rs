@@ -161,7 +161,7 @@ pub(super) fn meeting(world: &PhysicsWorld, near: &Near, dt: f64) -> Meeting {
         spins,
         radii,
         materials: [0; 2],
-        mass: 1.0 / (inverse(a) + inverse(b)),
+        inverse_mass: inverse(a) + inverse(b),
         dt,
     }
 }

@@ -208,7 +208,7 @@ impl<C: ContactLaw> Situation<'_, C> {
             velocity,
             spins: [course.spin, body.surface_spin()],
             radii: [sphere.radius, f64::INFINITY],
-            mass: 1.0 / (motion.inverse_mass + body.inverse_mass),
+            inverse_mass: motion.inverse_mass + body.inverse_mass,
             dt: self.dt,
             materials: [
                 self.grains.material(grain),

@@ -98,7 +98,7 @@ fn meeting<C: ContactLaw>(
         velocity,
         spins: [grains.spins[i].rate, grains.spins[j].rate],
         radii: squeeze.radii,
-        mass: 1.0 / (a.inverse_mass + b.inverse_mass),
+        inverse_mass: a.inverse_mass + b.inverse_mass,
         dt,
         materials: if C::BY_MATERIAL {
             [grains.material(i), grains.material(j)]

@@ -69,6 +69,8 @@ pub struct Bed<C: ContactLaw> {
     pub gravity: Vector,
     /// Time step, s.
     pub dt: f64,
+    /// Length of the step that led to the positions, s: velocities are those of its middle.
+    pub stride: f64,
     /// Time of the positions, s.
     pub time: f64,
     /// Steps done.
@@ -91,6 +93,8 @@ pub(in crate::dem) struct Listed {
     pub(in crate::dem) poses: Vec<Pose>,
     /// Largest squared distance in each chunk of grains, m2.
     pub(in crate::dem) moved: Vec<f64>,
+    /// Smallest radius, m.
+    pub(in crate::dem) smallest: f64,
     /// Neighbours must be listed before the next step.
     pub(in crate::dem) due: bool,
 }
@@ -108,6 +112,7 @@ impl<C: ContactLaw> Bed<C> {
             surfaces: Surfaces::new(normals.wall),
             gravity: parts.gravity,
             dt: parts.dt,
+            stride: parts.dt,
             time: 0.0,
             step: 0,
             loads: vec![Load::default(); bodies],
@@ -143,7 +148,7 @@ impl<C: ContactLaw> Bed<C> {
             self.relist()?;
         }
         std::mem::swap(&mut self.loads, &mut self.before);
-        let (grains, machine, dt) = (&self.grains, &self.machine, self.dt);
+        let (grains, machine, dt) = (&self.grains, &self.machine, self.stride);
         let (contacts, surfaces, law) = (&mut self.contacts, &mut self.surfaces, &self.law);
         let loads = &mut self.loads;
         let is_small = contacts.is_small();
@@ -159,6 +164,9 @@ impl<C: ContactLaw> Bed<C> {
 
     /// Moves grains and bodies on by one time step under the present forces.
     ///
+    /// Velocities go from the middle of the last step to that of the next: where the two differ in length, a kick of either
+    /// would shift them against the positions, and a grain that bounces in gravity would lose energy with every change.
+    ///
     /// # Errors
     /// [`Error::Bed`] when a body's place is no longer a number.
     pub fn advance(&mut self) -> Result<()> {
@@ -168,11 +176,12 @@ impl<C: ContactLaw> Bed<C> {
             surfaces: &self.surfaces,
             centres,
             gravity: self.gravity,
+            kick: 0.5 * (self.stride + self.dt),
             dt: self.dt,
         };
         let (grains, machine) = (&mut self.grains, &mut self.machine);
-        let (loads, dt) = (&self.loads, self.dt);
-        let bodies = || machine.step(loads, dt).map(|()| machine.view());
+        let (loads, kick, dt) = (&self.loads, mover.kick, self.dt);
+        let bodies = || machine.step(loads, kick, dt).map(|()| machine.view());
         let ((), stepped) = both(
             self.contacts.is_small(),
             || mover.kick_and_drift(grains, moved),
@@ -183,6 +192,7 @@ impl<C: ContactLaw> Bed<C> {
             self.broken(&format!("the body \"{name}\""))
         })?;
         self.time += self.dt;
+        self.stride = self.dt;
         self.step += 1;
         self.fresh = false;
         Ok(())
@@ -210,6 +220,20 @@ impl<C: ContactLaw> Bed<C> {
             return Err(self.broken("a grain"));
         }
         let bodies = self.machine.moved_since(&self.listed.poses);
+        if !self.listed.due {
+            // lists are made anew once half the skin is used up, so that what is beyond it came in one step
+            let steps = [("a grain", moved, 0.5), ("a body", bodies, 1.0)];
+            for (what, way, part) in steps {
+                if way > part * self.skin + self.listed.smallest {
+                    return Err(Error::Bed {
+                        step: self.step,
+                        reason: format!(
+                            "{what} has moved in one step by more than the radius of the smallest grain, and may have passed through another; reduce the time step or the speeds"
+                        ),
+                    });
+                }
+            }
+        }
         Ok(self.listed.due || 2.0 * moved > self.skin || moved + bodies > self.skin)
     }
 
@@ -234,6 +258,7 @@ impl<C: ContactLaw> Bed<C> {
             centres: self.grains.spheres.iter().map(|s| s.centre).collect(),
             poses: self.machine.surfaces.iter().map(|s| s.pose).collect(),
             moved: vec![0.0; self.grains.len().div_ceil(CHUNK)],
+            smallest: self.grains.smallest_radius(),
             due: false,
         };
         Ok(())
@@ -259,10 +284,10 @@ impl<C: ContactLaw> Bed<C> {
             if station.driven {
                 let power = (now.force + before.force).dot(station.velocity)
                     + (now.torque + before.torque).dot(station.spin);
-                self.outside.driven -= 0.5 * self.dt * power;
+                self.outside.driven -= 0.5 * self.stride * power;
             }
             if station.belt.is_some() {
-                self.outside.driven += 0.5 * self.dt * (now.power + before.power);
+                self.outside.driven += 0.5 * self.stride * (now.power + before.power);
             }
         }
     }
@@ -356,6 +381,9 @@ struct Mover<'a, C: ContactLaw> {
     /// Centres when neighbours were listed.
     centres: &'a [Vector],
     gravity: Vector,
+    /// From the middle of the last step to that of this one, s.
+    kick: f64,
+    /// Length of this step, s.
     dt: f64,
 }
 
@@ -391,15 +419,15 @@ impl<C: ContactLaw> Mover<'_, C> {
         motions: &mut [Motion],
         spins: &mut [Spin],
     ) -> f64 {
-        let dt = self.dt;
+        let (kick, dt) = (self.kick, self.dt);
         let mut furthest = 0.0;
         for (at, ((sphere, motion), spin)) in spheres.iter_mut().zip(motions).zip(spins).enumerate()
         {
             let (force, torque) = load(self.contacts, self.surfaces, first + at);
-            motion.velocity += (force * motion.inverse_mass + self.gravity) * dt;
+            motion.velocity += (force * motion.inverse_mass + self.gravity) * kick;
             sphere.centre += motion.velocity * dt;
             if C::ROTATES {
-                spin.rate += torque * (spin.inverse_inertia * dt);
+                spin.rate += torque * (spin.inverse_inertia * kick);
             }
             let distance = (sphere.centre - self.centres[first + at]).length_squared();
             // a NaN must come through, so that the run stops

@@ -32,7 +32,7 @@ keep_fields!(HalfList: pairs, start, reverse_start, reverse, images);
 keep_fields!(impl [M: Keep] Patch<M>: memory, push, point, normal);
 keep_fields!(Tally: losses, left_out);
 keep_fields!(Outside: driven, stiffening);
-keep_fields!(Listed: centres, poses, moved, due);
+keep_fields!(Listed: centres, poses, moved, smallest, due);
 
 /// Materials of contacts that are about to be loaded: they know their own.
 const UNKNOWN: fn(usize) -> [u8; 2] = |_| [RIGID; 2];
@@ -178,6 +178,7 @@ impl<C: ContactLaw> Keep for Bed<C> {
             contacts,
             surfaces,
             dt,
+            stride,
             time,
             step,
             loads,
@@ -194,6 +195,7 @@ impl<C: ContactLaw> Keep for Bed<C> {
         contacts.save(tape);
         surfaces.save(tape);
         dt.save(tape);
+        stride.save(tape);
         time.save(tape);
         step.save(tape);
         loads.save(tape);
@@ -211,6 +213,7 @@ impl<C: ContactLaw> Keep for Bed<C> {
             contacts,
             surfaces,
             dt,
+            stride,
             time,
             step,
             loads,
@@ -229,6 +232,7 @@ impl<C: ContactLaw> Keep for Bed<C> {
         Keep::load(contacts, tape)?;
         Keep::load(surfaces, tape)?;
         dt.load(tape)?;
+        stride.load(tape)?;
         time.load(tape)?;
         step.load(tape)?;
         loads.load(tape)?;

@@ -94,13 +94,13 @@ impl<C: ContactLaw> Bed<C> {
             let (force, torque) = self.load(grain);
             let (motion, spin) = (&self.grains.motions[grain], &self.grains.spins[grain]);
             let mass = 1.0 / motion.inverse_mass;
-            let next = motion.velocity + (force * motion.inverse_mass + self.gravity) * self.dt;
-            let turning = spin.rate + torque * (spin.inverse_inertia * self.dt);
+            let next = motion.velocity + (force * motion.inverse_mass + self.gravity) * self.stride;
+            let turning = spin.rate + torque * (spin.inverse_inertia * self.stride);
             energies.kinetic += 0.5 * mass * motion.velocity.dot(next)
                 + 0.5 / spin.inverse_inertia * spin.rate.dot(turning);
             energies.potential -= mass * self.gravity.dot(self.grains.spheres[grain].centre);
         }
-        let (kinetic, potential) = self.machine.energy(&self.loads, self.dt);
+        let (kinetic, potential) = self.machine.energy(&self.loads, self.stride);
         energies.kinetic += kinetic;
         energies.potential += potential;
         energies.losses = self.losses();

@@ -1,9 +1,10 @@
 //! Damping: a viscous force beside the normal law, for the vibration a particle keeps and DEM does not resolve.
 
+use super::edge::weight;
 use super::effects::{Contact, Effect, Named};
 use super::losses::Losses;
-use crate::contact::pair::Pressed;
 use crate::material::Material;
+use crate::tape::keep_fields;
 use parry3d::math::Vector;
 
 /// Dashpot that gives an elastic contact of any law the restitution e, at every speed.
@@ -85,22 +86,39 @@ fn decrement(ratio: f64) -> f64 {
     2.0 * ratio * angle / root
 }
 
-/// What the dashpot is multiplied by in the step in which the force sets in, 1 in all others; `travel` is the approach of a step
-/// (m).
+/// Steps a contact that are enough for the `restitution` e within 1 %, wherever in a step bodies touch; `power` is p of the
+/// law's first loading $F \propto \delta^p$.
 ///
-/// The force of a step stands for the time from half a step before to half a step after it. In the first, of which a part
-/// $\theta$ is past, there was none before, and the dashpot grows like $t^p$, $p = \tfrac12 (d\ln F/d\ln z - 1)$: all at once under a
-/// spring. Its impulse is $(\theta + \tfrac12)^{p+1}/(p+1)$ instead of $\theta^p$; left as it is, twenty steps a contact would miss
-/// a restitution of 0.3 by 3 % under Hertz, and by 7 % under a spring.
-#[inline(always)]
-fn onset(law: &Pressed, secant: f64, travel: f64) -> f64 {
-    if law.depth > travel {
-        return 1.0;
-    }
-    let past = law.depth / travel;
-    let power = 0.5 * (law.stiffness / secant + 1.0);
-    (past + 0.5).powf(power) / (power * past.powf(power - 1.0))
+/// The error falls with the square of the step. It grows as e falls, for then little is left of the approach, and is largest under
+/// a spring, whose dashpot sets in at once: the part of the first step that is past has slowed the approach already, and the
+/// overlap does not know. Measured over all parts of a step, twenty steps miss 0.05 by 3.2 % under Hertz and by 11 % under a spring,
+/// 0.2 by 0.6 and 2.4 %.
+#[must_use]
+pub fn steps_for(restitution: f64, power: f64) -> f64 {
+    let (from, steeper) = match power < 1.4 {
+        true => (0.5, 0.6),
+        false => (0.2, 0.45),
+    };
+    USUAL_STEPS * (from / restitution).powf(steeper).max(1.0)
 }
+
+/// Steps a contact of usual DEM practice.
+pub const USUAL_STEPS: f64 = 20.0;
+
+/// Share of the last step's change in what others do to the approach that is taken for true at once. All of it would halve the
+/// damping a packing bears before it turns unstable.
+const SHARE_OF_OTHERS: f64 = 0.25;
+
+/// What a contact remembers of its dashpot.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Dashpot {
+    /// What it adds to the normal force, N.
+    pub force: f64,
+    /// What everything else, other contacts and gravity, adds to the approach in half a step, less the share of the next
+    /// step's approach in it, m/s.
+    others: f64,
+}
+keep_fields!(Dashpot: force, others);
 
 impl Viscous {
     /// Dashpot of `restitution` e, 0 < e <= 1.
@@ -133,40 +151,55 @@ impl Named for Viscous {
 }
 
 impl Effect for Viscous {
-    /// What the dashpot adds to the normal force, N.
-    type Memory = f64;
+    type Memory = Dashpot;
     const ACROSS: bool = false;
     const MOMENT: bool = false;
 
-    /// The velocity is that of half a step before; the dashpot acts on that of the whole step, which its own force and the law's
-    /// change: solved for at once, it is of second order and stable for any ratio.
+    /// The velocity is that of half a step before; the dashpot acts on that of the whole step. Its own force and the law's change
+    /// it, solved for at once, and so does everything else that pushes the bodies, taken from how the approach has changed: at rest
+    /// the two cancel, and the law alone carries the load.
     #[inline(always)]
-    fn act(&self, contact: &mut Contact, dashpot: &mut f64, losses: &mut Losses) {
-        let (m, law) = (contact.meeting, &contact.pressed);
-        let before = *dashpot;
-        *dashpot = 0.0;
-        if contact.normal_force > 0.0 {
-            let secant = law.force / law.depth;
-            let viscous = self.normal
-                * (m.mass * (law.stiffness + secant)).sqrt()
-                * onset(law, secant, contact.approach * m.dt);
-            let inertia = 2.0 * m.mass;
-            let whole = contact.normal_force + viscous * contact.approach;
-            let whole = (whole * inertia / (inertia + m.dt * viscous)).max(0.0);
-            *dashpot = whole - contact.normal_force;
-            contact.normal_force = whole;
+    fn act(&self, contact: &mut Contact, dashpot: &mut Dashpot, losses: &mut Losses) {
+        let (m, law, approach) = (contact.meeting, &contact.pressed, contact.approach);
+        let before = dashpot.force;
+        if m.overlap > 0.0 {
+            let others = match contact.before.touches() {
+                true => dashpot.others + 0.5 * SHARE_OF_OTHERS * approach,
+                false => 0.0,
+            };
+            let law_force = contact.normal_force;
+            if law_force > 0.0 {
+                // per mass, so that one division serves all
+                let stiffness = law.stiffness + law.force / law.depth;
+                let mut rate = self.normal * (stiffness * m.inverse_mass).sqrt();
+                if contact.edge <= 1.0 {
+                    // F/sqrt(2 U) grows like t^p from the first touch, or falls like it to the last
+                    let power = 0.5 * (law.stiffness * law.depth / law.force - 1.0);
+                    rate *= weight(power, contact.edge);
+                }
+                let whole = law_force * m.inverse_mass + rate * (approach + others);
+                let whole = whole / (m.inverse_mass * (1.0 + 0.5 * m.dt * rate));
+                contact.normal_force = whole.max(0.0);
+            }
+            let alone = approach - m.dt * m.inverse_mass * contact.normal_force;
+            *dashpot = Dashpot {
+                force: contact.normal_force - law_force,
+                others: (1.0 - SHARE_OF_OTHERS) * others - 0.5 * SHARE_OF_OTHERS * alone,
+            };
+        } else {
+            *dashpot = Dashpot::default();
         }
         contact.dashpot = self.across;
-        losses.damping += 0.5 * m.dt * (before + *dashpot) * contact.approach;
+        losses.damping += 0.5 * m.dt * (before + dashpot.force) * approach;
     }
 
     #[inline(always)]
-    fn moment(_: &f64) -> Vector {
+    fn moment(_: &Dashpot) -> Vector {
         Vector::ZERO
     }
 
     #[inline(always)]
-    fn stored(_: &f64) -> f64 {
+    fn stored(_: &Dashpot) -> f64 {
         0.0
     }
 

@@ -14,6 +14,7 @@
 //! books what it dissipates and tells what it stores; the normal law tells both from its own state. Nothing is booked as what
 //! is left over: that is the imbalance.
 
+use super::edge::{edge, weight};
 use super::losses::Losses;
 use super::meeting::{Meeting, Push};
 use crate::contact::pair::Pressed;
@@ -82,7 +83,9 @@ pub struct Contact<'a> {
     pub passing: Vector,
     /// Distances from the centres to the point of contact, m; none for a surface, whose turning is in its velocity.
     pub arms: [f64; 2],
-    /// Normal force so far, N.
+    /// Part of the step past since first touch, or left until they part; infinite within a contact.
+    pub edge: f64,
+    /// Normal force so far, N; that of the law stands for the whole step.
     pub normal_force: f64,
     /// Force across the normal so far, N.
     pub across: Vector,
@@ -301,8 +304,13 @@ impl<L: EffectList> ContactLaw for Law<L> {
             stiffness: pressed.stiffness * self.softening,
             ..*pressed
         };
-        let middle = m.middle / m.middle.length();
+        let middle = m.middle * inverse_root_near_one(m.middle.length_squared());
         let approach = -m.velocity.dot(middle);
+        let edge = edge(&pressed, approach, m.inverse_mass, m.dt, before.touches());
+        let mut normal_force = pressed.force;
+        if edge <= 1.0 {
+            normal_force *= weight(pressed.stiffness * pressed.depth / pressed.force, edge);
+        }
         let mut contact = Contact {
             meeting,
             pressed,
@@ -311,7 +319,8 @@ impl<L: EffectList> ContactLaw for Law<L> {
             approach,
             passing: m.velocity + middle * approach,
             arms: lever_arms(m, &pressed),
-            normal_force: pressed.force,
+            edge,
+            normal_force,
             across: Vector::ZERO,
             dashpot: 0.0,
         };
@@ -363,6 +372,19 @@ impl<L: EffectList> ContactLaw for Law<L> {
         self.softening = factor;
         self.effects.soften(factor);
     }
+}
+
+/// $1/\sqrt{x}$ by Newton's method: of a length that a step changes little, without a root and a division.
+#[inline(always)]
+fn inverse_root_near_one(x: f64) -> f64 {
+    if (x - 1.0).abs() > 0.1 {
+        return 1.0 / x.sqrt();
+    }
+    let mut y = 1.5 - 0.5 * x;
+    for _ in 0..3 {
+        y *= 1.5 - 0.5 * x * y * y;
+    }
+    y
 }
 
 /// Distances from the centres to the point of contact; none for a surface, whose turning is in its velocity.

@@ -114,7 +114,7 @@ impl Effect for Mindlin {
         let mut force = spring.load;
         if contact.dashpot > 0.0 {
             let damped = slip - m.normal * slip.dot(m.normal);
-            force -= damped * (contact.dashpot * (m.mass * stiffness).sqrt());
+            force -= damped * (contact.dashpot * (stiffness / m.inverse_mass).sqrt());
             let size = force.length_squared();
             if size > limit * limit {
                 force *= limit / size.sqrt();

@@ -19,8 +19,8 @@ pub struct Meeting {
     pub spins: [Vector; 2],
     /// Radii, m; infinite for a surface.
     pub radii: [f64; 2],
-    /// Effective mass of the normal motion, kg.
-    pub mass: f64,
+    /// Inverse of the effective mass of the normal motion, 1/kg.
+    pub inverse_mass: f64,
     /// Length of that step, s.
     pub dt: f64,
     /// Materials, as indices; [`super::mixture::RIGID`] for a body without one. Told only to laws that ask

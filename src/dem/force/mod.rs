@@ -2,6 +2,7 @@
 
 pub mod by_material;
 pub mod damping;
+mod edge;
 pub mod effects;
 pub mod friction;
 pub mod list;

@@ -33,6 +33,11 @@ typedef struct {
     double load[3], stiffness;
 } law_slider;
 
+/* What the damping has learned (m/s) of everything else that pushes the bodies, and whether they touched. All 0: no contact. */
+typedef struct {
+    double others, touched;
+} law_dashpot;
+
 /* Two bodies that overlap, SI units. */
 typedef struct {
     double normal[3];     /* from the second body to the first */
@@ -71,7 +76,7 @@ static inline double law_decrement(double ratio)
 }
 
 /* The damping ratio zeta of a restitution e in (0, 1]; by bisection, so once, not in a loop over contacts. */
-static inline double law_dashpot(double restitution)
+static inline double law_damping_ratio(double restitution)
 {
     const double asked = -log(restitution);
     double low = 0.0, high = 1.0 + exp(0.5 * asked);
@@ -92,16 +97,22 @@ static inline double law_viscosity(double damping, const law_pressed *p, double 
     return sqrt(2.0) * damping * sqrt(mass * (p->stiffness + p->force / p->depth));
 }
 
-/* What the dashpot is multiplied by in the step in which the force sets in, 1 in all others; `travel` is the approach of a step.
-   The dashpot grows like t^p from the first touch, p = (dlnF/dlnz - 1)/2: with the part s of the step past, its impulse up to
-   half a step later is (s + 1/2)^(p+1)/(p+1) of what the force is multiplied with, not s^p. */
-static inline double law_onset(const law_pressed *p, double travel)
+/* Part of the step that is past since bodies touched, or left until they part, at the closing speed `approach`; -1 within a
+   contact. */
+static inline double law_edge(const law_pressed *p, double approach, double mass, double dt, int touched)
 {
-    double past, power;
-    if (p->depth > travel) return 1.0;
-    past = p->depth / travel;
-    power = 0.5 * (p->stiffness * p->depth / p->force + 1.0);
-    return pow(past + 0.5, power) / (power * pow(past, power - 1.0));
+    const double speed = approach > 0.0 ? approach : p->force * dt / mass - approach;
+    const double way = speed * dt * (1.0 + 1e-6); /* longer by the rounding of places */
+    if (!(p->force > 0.0) || p->depth > way || (approach > 0.0 && touched)) return -1.0;
+    return p->depth / way;
+}
+
+/* What a force that grows like t^p is multiplied by where a `part` of the step is past since first touch, so that the sum of the
+   steps is its integral: (part^p - zeta(-p, part))/part^p with Hurwitz's zeta function. */
+static inline double law_weight(double p, double part)
+{
+    const double a = part + 0.5, square = 1.0 / (a * a), third = 7.0 * p * (p - 1.0) * (p - 2.0) / 5760.0;
+    return a * (1.0 / (p + 1.0) + square * (third * square - p / 24.0)) * pow(a / part, p);
 }
 
 /* Viscosity (N s/m) of the dashpot on a tangential spring. */
@@ -110,12 +121,13 @@ static inline double law_rubbing_viscosity(double damping, double stiffness, dou
     return 2.0 * sqrt(5.0 / 6.0) * (damping < 1.0 ? damping : 1.0) * sqrt(mass * stiffness);
 }
 
-/* From the second centre to the first in the middle of the step, over the present distance; on a surface the normal. */
+/* From the second centre, or the surface, to the first centre in the middle of the step, over the present distance. */
 static inline void law_middle(const law_meeting *m, const double *arms, double *middle)
 {
-    const double turn = m->radii[1] > 0.0 ? 0.5 * m->dt / (arms[0] + arms[1]) : 0.0;
+    const double turn = 0.5 * m->dt / (arms[0] + arms[1]), along = law_dot(m->velocity, m->normal);
     int k;
-    for (k = 0; k < 3; k++) middle[k] = m->normal[k] - turn * m->velocity[k];
+    for (k = 0; k < 3; k++)
+        middle[k] = m->normal[k] - turn * (m->radii[1] > 0.0 ? m->velocity[k] : along * m->normal[k]);
 }
 
 /* Takes off what of a vector lies along another. */
@@ -158,16 +170,24 @@ static inline void law_slide(law_slider *s, const double *stretch, const law_mee
     s->stiffness = stiffness;
 }
 
-/* Normal force of the law with damping; `approach` is the rate of the overlap half a step before, the dashpot acts on that
-   of the whole step, which its own force and the law's change. */
-static inline double law_damped(const law_effects *e, const law_pressed *p, double approach, double mass, double dt)
+/* Normal force of the law with damping; `approach` is the rate of the overlap half a step before, the dashpot acts on that of the
+   whole step. Its own force and the law's change it, and so does everything else that pushes the bodies, which the dashpot
+   learns from step to step: at rest the two cancel. */
+static inline double law_damped(const law_effects *e, const law_pressed *p, double approach, double mass, double dt,
+                                   law_dashpot *d)
 {
+    const double share = 0.25, others = d->touched > 0.0 ? d->others + 0.5 * share * approach : 0.0;
+    const double edge = law_edge(p, approach, mass, dt, d->touched > 0.0);
     double force = p->force;
+    if (edge >= 0.0) force *= law_weight(p->stiffness * p->depth / p->force, edge);
     if (force > 0.0 && e->damping > 0.0) {
-        const double viscous = law_viscosity(e->damping, p, mass) * law_onset(p, approach * dt);
-        force = (force + viscous * approach) * (2.0 * mass) / (2.0 * mass + dt * viscous);
+        double viscous = law_viscosity(e->damping, p, mass);
+        if (edge >= 0.0) viscous *= law_weight(0.5 * (p->stiffness * p->depth / p->force - 1.0), edge);
+        force = (force + viscous * (approach + others)) * (2.0 * mass) / (2.0 * mass + dt * viscous);
         if (force < 0.0) force = 0.0;
     }
+    d->touched = 1.0;
+    d->others = (1.0 - share) * others - 0.5 * share * (approach - dt / mass * force);
     return force;
 }
 
@@ -215,9 +235,9 @@ static inline double law_approach(const law_meeting *m, const double *middle)
     return -law_dot(m->velocity, middle) / sqrt(law_dot(middle, middle));
 }
 
-/* Everything the contact does: `p` is the pressed law, `spring` and `roller` its springs. */
+/* Everything the contact does: `p` is the pressed law, `dashpot`, `spring` and `roller` what it remembers. */
 static inline law_push law_meet(const law_effects *e, const law_meeting *m, const law_pressed *p,
-                                      law_slider *spring, law_slider *roller)
+                                      law_dashpot *dashpot, law_slider *spring, law_slider *roller)
 {
     const int on_surface = m->radii[1] <= 0.0;
     const double arms[2] = {m->radii[0] - p->flattening[0], on_surface ? 0.0 : m->radii[1] - p->flattening[1]};
@@ -225,7 +245,7 @@ static inline law_push law_meet(const law_effects *e, const law_meeting *m, cons
     law_push push;
     int k;
     law_middle(m, arms, middle);
-    normal_force = law_damped(e, p, law_approach(m, middle), m->mass, m->dt);
+    normal_force = law_damped(e, p, law_approach(m, middle), m->mass, m->dt, dashpot);
     stiffness = law_shear(p, normal_force, on_surface);
     push.normal_force = normal_force;
     for (k = 0; k < 3; k++) {

@@ -25,7 +25,7 @@ int law_rows::effect(LAMMPS *lmp, const char *style, int iarg, int narg, char **
   const double value = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
   if (key == "restitution") {
     if (!(value > 0.0 && value <= 1.0)) lmp->error->all(FLERR, "{}: restitution {} must lie in (0, 1]", style, value);
-    effects.damping = law_dashpot(value);
+    effects.damping = law_damping_ratio(value);
   } else {
     if (!(value >= 0.0)) lmp->error->all(FLERR, "{}: {} {} must not be negative", style, key, value);
     (key == "friction" ? effects.friction : effects.rolling) = value;
@@ -120,17 +120,19 @@ law_push Pair@CLASS@::meet(int a, int b, double distance, double *row) const
   m.mass = atom->rmass[a] * atom->rmass[b] / (atom->rmass[a] + atom->rmass[b]);
   m.dt = update->dt;
   law_side first = law_rows::side(row + law_rows::SIDE_1), second = law_rows::side(row + law_rows::SIDE_2);
+  law_dashpot dashpot = law_rows::dashpot(row + law_rows::DASHPOT);
   law_slider spring = law_rows::slider(row + law_rows::SPRING), roller = law_rows::slider(row + law_rows::ROLLER);
   double share = row[law_rows::SHARE];
   const double overlap = m.radii[0] + m.radii[1] - distance;
   const law_pressed p = law_pair(overlap, m.radii[0], m.radii[1], &first, &second, &share);
-  const law_push push = law_meet(&effects, &m, &p, &spring, &roller);
+  const law_push push = law_meet(&effects, &m, &p, &dashpot, &spring, &roller);
   if (!update->setupflag) {
     law_rows::keep(row + law_rows::SIDE_1, first);
     law_rows::keep(row + law_rows::SIDE_2, second);
     row[law_rows::SHARE] = share;
     law_rows::keep(row + law_rows::SPRING, spring);
     law_rows::keep(row + law_rows::ROLLER, roller);
+    law_rows::keep(row + law_rows::DASHPOT, dashpot);
   }
   return push;
 }

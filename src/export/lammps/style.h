@@ -24,12 +24,14 @@
 
 namespace LAMMPS_NS {
 
-// What a contact remembers, as a row of numbers: law of both sides, share, tangential spring, rolling spring.
+// What a contact remembers, as a row of numbers: law of both sides, share, tangential spring, rolling spring, dashpot.
 namespace law_rows {
-enum { SIDE_1 = 0, SIDE_2 = 4, SHARE = 8, SPRING = 9, ROLLER = 13, PAIR_SIZE = 17 };
+enum { SIDE_1 = 0, SIDE_2 = 4, SHARE = 8, SPRING = 9, ROLLER = 13, DASHPOT = 17, PAIR_SIZE = 19 };
 
 inline law_side side(const double *h) { return {h[0], h[1], h[2], h[3]}; }
 inline law_slider slider(const double *h) { return {{h[0], h[1], h[2]}, h[3]}; }
+inline law_dashpot dashpot(const double *h) { return {h[0], h[1]}; }
+inline void keep(double *h, const law_dashpot &d) { h[0] = d.others; h[1] = d.touched; }
 inline void keep(double *h, const law_side &s) { h[0] = s.x_max; h[1] = s.phi_max; h[2] = s.x_res; h[3] = s.n; }
 inline void keep(double *h, const law_slider &s) { h[0] = s.load[0]; h[1] = s.load[1]; h[2] = s.load[2]; h[3] = s.stiffness; }
 
@@ -130,7 +132,7 @@ class Fix@CLASS@Wall : public Fix {
   int maxsize_restart() override;
 
  private:
-  enum { SIDE = 0, SPRING = 4, ROLLER = 8, SIZE = 12 };
+  enum { SIDE = 0, SPRING = 4, ROLLER = 8, DASHPOT = 12, SIZE = 14 };
   struct Plane {
     std::string name;
     int axis;

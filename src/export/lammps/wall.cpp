@@ -110,10 +110,11 @@ void Fix@CLASS@Wall::press(int i, Plane &plane, double *row)
   m.mass = atom->rmass[i];
   m.dt = update->dt;
   law_side side = law_rows::side(row + SIDE);
+  law_dashpot dashpot = law_rows::dashpot(row + DASHPOT);
   law_slider spring = law_rows::slider(row + SPRING), roller = law_rows::slider(row + ROLLER);
   const double overlap = m.radii[0] - plane.inward * (atom->x[i][plane.axis] - position(plane));
   const law_pressed p = law_wall(overlap, m.radii[0], &side);
-  const law_push push = law_meet(&effects, &m, &p, &spring, &roller);
+  const law_push push = law_meet(&effects, &m, &p, &dashpot, &spring, &roller);
   for (int k = 0; k < 3; k++) {
     atom->f[i][k] += push.force[k];
     atom->torque[i][k] += push.torque[0][k];
@@ -123,6 +124,7 @@ void Fix@CLASS@Wall::press(int i, Plane &plane, double *row)
   law_rows::keep(row + SIDE, side);
   law_rows::keep(row + SPRING, spring);
   law_rows::keep(row + ROLLER, roller);
+  law_rows::keep(row + DASHPOT, dashpot);
 }
 
 void Fix@CLASS@Wall::post_force(int)
@@ -137,7 +139,7 @@ void Fix@CLASS@Wall::post_force(int)
       double *row = &rows[i * width() + k * SIZE];
       if (plane.inward * (atom->x[i][plane.axis] - at) < atom->radius[i])
         press(i, plane, row);
-      else if (row[SIDE] > 0.0)
+      else if (row[DASHPOT + 1] > 0.0)
         memset(row, 0, SIZE * sizeof(double));
     }
   }

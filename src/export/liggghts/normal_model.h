@@ -9,7 +9,7 @@
  * Settings:  damping on|off (off)   viscous part with the restitution of coefficientRestitution
  *            tangential_damping on|off (on)   the same on the tangential spring
  * History:   per side x_max, phi_max, x_res, n of the law (see @NAME@.h), sides in the order of the grains' numbers; forgotten
- *            when the undeformed spheres part.
+ *            when the undeformed spheres part. Then what the damping has learned: others, touched.
  */
 #ifdef NORMAL_MODEL
 NORMAL_MODEL(LAW_NORMAL,@NAME@,@ID@)
@@ -54,7 +54,9 @@ namespace ContactModels
         hsetup->add_history_value("exponent2", "0");
         hsetup->add_history_value("share", "0");
       }
-      history_size = c->is_wall() ? 4 : 9;
+      hsetup->add_history_value("others", "0");
+      hsetup->add_history_value("touched", "0");
+      history_size = c->is_wall() ? 6 : 11;
     }
 
     void registerSettings(Settings &settings)
@@ -87,7 +89,13 @@ namespace ContactModels
       const law_pressed p = press(sidata);
       law_effects effects = {0.0, 0.0, 0.0};
       if (damping) effects.damping = ratio(beta[sidata.itype][sidata.jtype]);
-      const double Fn = law_damped(&effects, &p, -sidata.vn, sidata.meff, update->dt);
+      double *const kept = &sidata.contact_history[history_offset + history_size - 2];
+      law_dashpot dashpot = {kept[0], kept[1]};
+      const double Fn = law_damped(&effects, &p, approach(sidata, p), sidata.meff, update->dt, &dashpot);
+      if (sidata.computeflag && sidata.shearupdate) {
+        kept[0] = dashpot.others;
+        kept[1] = dashpot.touched;
+      }
 
       // Lever arms to the point of contact; a wall does not flatten.
       sidata.cri = sidata.radi - p.flattening[0];
@@ -121,9 +129,26 @@ namespace ContactModels
     {
       if (beta != last_beta) {
         last_beta = beta;
-        last_ratio = law_dashpot(exp(M_PI * beta / sqrt(1.0 - beta * beta)));
+        last_ratio = law_damping_ratio(exp(M_PI * beta / sqrt(1.0 - beta * beta)));
       }
       return last_ratio;
+    }
+
+    // Rate of approach along the normal of the velocities' time.
+    double approach(const SurfacesIntersectData &sidata, const law_pressed &p) const
+    {
+      const double arms[2] = {sidata.radi - p.flattening[0], sidata.is_wall ? 0.0 : sidata.radj - p.flattening[1]};
+      law_meeting m;
+      double middle[3];
+      for (int k = 0; k < 3; k++) {
+        m.normal[k] = sidata.en[k];
+        m.velocity[k] = sidata.v_i[k] - sidata.v_j[k];
+      }
+      m.radii[0] = sidata.radi;
+      m.radii[1] = sidata.is_wall ? 0.0 : sidata.radj;
+      m.dt = update->dt;
+      law_middle(&m, arms, middle);
+      return law_approach(&m, middle);
     }
 
     double **beta;
@@ -134,7 +159,7 @@ namespace ContactModels
     // The pressed law; the history is kept where LIGGGHTS says that this evaluation counts.
     law_pressed press(const SurfacesIntersectData &sidata) const
     {
-      double kept[9];
+      double kept[11];
       double *const history = &sidata.contact_history[history_offset];
       memcpy(kept, history, history_size * sizeof(double));
       law_pressed p;

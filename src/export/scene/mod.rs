@@ -8,6 +8,7 @@ pub mod liggghts;
 
 use crate::bed::run::packing::Packed;
 use crate::bed::scene::{Container, FITTED, LawChoice, OutputTable, Scene, Stage, TimeStep};
+use crate::dem::force::damping::steps_for;
 use crate::dem::force::named::Constants;
 use crate::export::c::contact::filled;
 use crate::export::c::kernel::number;
@@ -31,6 +32,8 @@ const LOOK: f64 = 2e-5;
 const MOST_STEPS: f64 = 100.0;
 /// Share of the Rayleigh time and steps a contact that the law's suggested time step stands for.
 const SUGGESTED: (f64, f64) = (0.2, 20.0);
+/// Power of the first loading of every fitted law, which begins as Hertz's.
+const FIRST_POWER: f64 = 1.5;
 
 /// A code whole scenes go to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -267,8 +270,12 @@ impl Bed<'_> {
     /// Time step, s: the scene's own, or what the law suggests for the smallest grain.
     fn time_step(&self) -> f64 {
         let time = &self.scene.time;
+        let steps = time.steps_per_contact.unwrap_or_else(|| {
+            let restitution = self.scene.contact.restitution.unwrap_or(1.0);
+            steps_for(restitution, FIRST_POWER)
+        });
         let careful = (time.rayleigh_fraction / SUGGESTED.0)
-            .min(SUGGESTED.1 / time.steps_per_contact)
+            .min(SUGGESTED.1 / steps)
             .min(1.0);
         let suggested = self.law.time_step_over_radius * self.packed.grains.smallest_radius();
         time.step.unwrap_or(careful * suggested)

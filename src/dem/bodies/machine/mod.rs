@@ -224,16 +224,19 @@ impl Machine {
         }
     }
 
-    /// Moves every body on by `dt` (s) under the loads of the grains.
+    /// Moves every body on by `dt` (s) under the loads of the grains; what forces it changes velocities over the `kick` (s) from
+    /// the middle of the last step to that of this one.
     ///
     /// # Errors
     /// The index of a body whose place is no longer a number.
-    pub fn step(&mut self, loads: &[Load], dt: f64) -> std::result::Result<(), usize> {
+    pub fn step(&mut self, loads: &[Load], kick: f64, dt: f64) -> std::result::Result<(), usize> {
         self.steer(loads, dt);
         self.time += dt;
         if self.at_rest() {
             return Ok(());
         }
+        // rapier knows one length of a step: forces and gravity are scaled for the other
+        let scale = kick / dt;
         for ((&handle, load), body) in self.handles.iter().zip(loads).zip(&self.bodies) {
             let rigid = &mut self.world.bodies[handle];
             if let Mobility::Free(freedom) = body.mobility
@@ -241,13 +244,16 @@ impl Machine {
             {
                 rigid.reset_forces(false);
                 rigid.reset_torques(false);
-                rigid.add_force((load.force + freedom.force) / self.unit, false);
-                rigid.add_torque(load.torque / (self.unit * self.unit), false);
+                rigid.add_force((load.force + freedom.force) * (scale / self.unit), false);
+                rigid.add_torque(load.torque * (scale / (self.unit * self.unit)), false);
             }
         }
         let before = self.motor_rates();
+        let gravity = self.world.gravity;
+        self.world.gravity = gravity * scale;
         self.world.integration_parameters.dt = dt;
         self.world.step();
+        self.world.gravity = gravity;
         self.motors += self.motor_work(&before);
         let broken =
             |handle: &RigidBodyHandle| !self.world.bodies[*handle].translation().is_finite();

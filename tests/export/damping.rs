@@ -1,0 +1,164 @@
+//! The restitution asked for in the exported contact: in C, LIGGGHTS and LAMMPS, at the steps a contact that a bed takes for it.
+
+use crate::codes::exported::Exported;
+use crate::codes::{succeed, write};
+use impactlaw::dem::force::damping::steps_for;
+use impactlaw::export::c::contact::headers;
+use impactlaw::export::scene::Code;
+use impactlaw::export::source::portable::Portable;
+use impactlaw::law::Form;
+use std::f64::consts::PI;
+use std::path::Path;
+use std::process::Command;
+
+const ASKED: [f64; 6] = [0.05, 0.1, 0.3, 0.6, 0.9, 0.99];
+const SPEEDS: [f64; 2] = [0.01, 10.0];
+const RADIUS: f64 = 250e-6;
+/// Flattening over the radius at which the law departs from Hertz's: deeper than any impact here.
+const ELASTIC_TO: f64 = 0.2;
+
+/// The law of solder balls in one form, but elastic: what an impact dissipates is the damping's alone.
+fn elastic(form: Form) -> Portable {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("models/sac305-solder.toml");
+    let law = Portable::read(&file, Some(form)).unwrap();
+    let force = 4.0 / 3.0 * law.material().contact_modulus() * f64::powf(ELASTIC_TO, 1.5);
+    let text = std::fs::read_to_string(file).unwrap();
+    let mut scaled = String::new();
+    let mut section = "";
+    for line in text.lines() {
+        if line.starts_with('[') {
+            section = line;
+        }
+        let key = line.split(" = ").next().unwrap();
+        match (section, key) {
+            ("[yield_point]", "displacement_over_radius") => {
+                scaled.push_str(&format!("{key} = {ELASTIC_TO:e}\n"));
+            }
+            ("[yield_point]", "force_over_radius2_Pa") => {
+                scaled.push_str(&format!("{key} = {force:e}\n"));
+            }
+            _ => scaled.push_str(&format!("{line}\n")),
+        }
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("elastic.toml");
+    std::fs::write(&path, scaled).unwrap();
+    Portable::read(&path, Some(form)).unwrap()
+}
+
+/// Time step (s) and steps of an impact, of its flight to the wall and of its flight away.
+fn clock(law: &Portable, asked: f64, speed: f64) -> (f64, u32) {
+    let material = law.material();
+    let mass = 4.0 / 3.0 * PI * RADIUS.powi(3) * material.density;
+    let modulus = material.contact_modulus();
+    let time = 2.868 * (mass * mass / (RADIUS * modulus * modulus * speed)).powf(0.2);
+    let steps = steps_for(asked, 1.5);
+    (time / steps, (4.0 * steps) as u32)
+}
+
+fn assert_had(what: &str, law: &Portable, had: impl Fn(f64, f64, f64, u32) -> f64) {
+    for speed in SPEEDS {
+        for asked in ASKED {
+            let (dt, steps) = clock(law, asked, speed);
+            let had = had(asked, speed, dt, steps) / speed;
+            println!(
+                "{what} {:?} at {speed} m/s: asked {asked}, had {had:.5}",
+                law.form
+            );
+            assert!((had / asked - 1.0).abs() < 0.01, "{what}: {asked}: {had}");
+        }
+    }
+}
+
+const MAIN: &str = r#"
+#include <stdio.h>
+#include <stdlib.h>
+#include "@FILE@_contact.h"
+int main(int count, char **words)
+{
+    const double asked = atof(words[1]), radius = atof(words[3]), mass = atof(words[4]), dt = atof(words[5]);
+    const law_effects effects = {0.0, 0.0, law_damping_ratio(asked)};
+    const long steps = atol(words[6]);
+    double rate = atof(words[2]), overlap = -0.37 * rate * dt;
+    law_side side = {0};
+    law_dashpot dashpot = {0};
+    long k;
+    (void)count;
+    for (k = 0; k < steps; k++) {
+        if (overlap > 0.0) {
+            const law_pressed p = law_wall(overlap, radius, &side);
+            rate -= law_damped(&effects, &p, rate, mass, dt, &dashpot) / mass * dt;
+        }
+        overlap += rate * dt;
+    }
+    printf("%.17g\n", -rate);
+    return 0;
+}
+"#;
+
+#[test]
+fn the_restitution_asked_for_is_had_in_c_under_both_forms() {
+    for form in [Form::ClosedForm, Form::Spline] {
+        let law = elastic(form);
+        let scratch = tempfile::tempdir().unwrap();
+        let folder = write(&headers(&law, "c"), scratch.path());
+        let main =
+            impactlaw::export::c::kernel::named(MAIN, &law).replace("@FILE@", &law.identifier);
+        std::fs::write(folder.join("main.c"), main).unwrap();
+        let compiler = std::env::var("CC").unwrap_or_else(|_| "cc".to_owned());
+        let program = folder.join("thrown");
+        let mut command = Command::new(compiler);
+        command
+            .current_dir(&folder)
+            .args(["-O1", "-o"])
+            .arg(&program);
+        succeed(command.args(["main.c", "-lm"]));
+        let mass = 4.0 / 3.0 * PI * RADIUS.powi(3) * law.material().density;
+        assert_had("C", &law, |asked, speed, dt, steps| {
+            let words = [asked, speed, RADIUS, mass, dt, f64::from(steps)];
+            let words = words.map(|word| format!("{word:e}"));
+            let mut command = Command::new(&program);
+            command.args(&words[..5]).arg(steps.to_string());
+            succeed(&mut command).trim().parse().unwrap()
+        });
+    }
+}
+
+/// Throws grains in a code, where it is installed.
+fn assert_had_in(code: Code, name: &str, key: &str) {
+    for form in [Form::ClosedForm, Form::Spline] {
+        let Some(exported) = Exported::of(elastic(form), code) else {
+            return;
+        };
+        let law = &exported.law;
+        assert_had(name, law, |asked, speed, dt, steps| {
+            let gap = format!("{:e}", 0.37 * speed * dt);
+            let [asked, speed, dt] = [asked, speed, dt].map(|value| format!("{value:e}"));
+            let (radius, density) = (RADIUS.to_string(), law.material().density.to_string());
+            let steps = steps.to_string();
+            let variables = [
+                ("E", asked.as_str()),
+                ("V", &speed),
+                ("DT", &dt),
+                ("STEPS", &steps),
+                ("R", &radius),
+                ("RHO", &density),
+                ("GAP", &gap),
+            ];
+            let rows = exported.run(key, 1, &variables, 3);
+            let last = rows.last().unwrap();
+            assert_eq!(last[1], 0.0, "it has parted: {last:?}");
+            last[2]
+        });
+    }
+}
+
+#[test]
+fn the_restitution_asked_for_is_had_in_liggghts_under_both_forms() {
+    assert_had_in(Code::Liggghts, "LIGGGHTS", "thrown");
+}
+
+#[test]
+fn the_restitution_asked_for_is_had_in_lammps_under_both_forms() {
+    assert_had_in(Code::Lammps, "LAMMPS", "thrown");
+}
