@@ -1,6 +1,7 @@
 //! Case file: what the user asks for, checked and in SI units.
 
 use crate::document::Document;
+use crate::document::keys::{Kind, Value as _, key, keys, table};
 use crate::material::Material;
 use crate::material::flow::{FlowConstants, InText, WithFlow};
 use crate::unit::{self, Angle, Density, Length, Pressure, Quantity, Velocity};
@@ -49,10 +50,28 @@ struct CaseFile {
     bed: Option<BedTable>,
 }
 
+keys! {
+    CaseFile {
+        particle: table("the particle"),
+        material: table("its material"),
+        impact: table("speeds"),
+        wall: table("the rigid wall").or("frictionless"),
+        accuracy: table("what the run is planned for"),
+        bed: table("a bed that `run` ends with").or("none"),
+        unusual: key("values that look like a slip of a unit and are meant all the same", "`particle.radius`, `material.*`, `impact.velocities`", "['particle.radius']").or("none"),
+    }
+}
+
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct ParticleTable {
     radius: Quantity<Length>,
+}
+
+keys! {
+    ParticleTable {
+        radius: key("radius of the sphere", "> 0", "'250 um'"),
+    }
 }
 
 /// Table `[material]`, in case and scene files alike.
@@ -67,11 +86,26 @@ pub(crate) struct ElasticTable {
     pub(crate) poisson_ratio: f64,
 }
 
+keys! {
+    ElasticTable {
+        density: key("density", "> 0", "'7274 kg/m3'"),
+        young_modulus: key("Young's modulus E", "> 0", "'59.82 GPa'"),
+        poisson_ratio: key("Poisson's ratio", "[0, 0.5)", "0.33"),
+    }
+}
+
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct ImpactTable {
     velocities: Vec<Quantity<Velocity>>,
     angle: Option<Quantity<Angle>>,
+}
+
+keys! {
+    ImpactTable {
+        velocities: key("impact speeds", "> 0, each once", "['5 m/s', '10 m/s']"),
+        angle: key("of the velocity from the wall's normal; above 0 the impact is run in three dimensions, by `impact` alone", "0 to 85 deg", "'30 deg'").or("0"),
+    }
 }
 
 #[derive(Debug, Deserialize)]
@@ -80,16 +114,34 @@ struct WallTable {
     friction: f64,
 }
 
+keys! {
+    WallTable {
+        friction: key("Coulomb's friction coefficient", "0 to 2", "0.3"),
+    }
+}
+
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct AccuracyTable {
     tolerance: f64,
 }
 
+keys! {
+    AccuracyTable {
+        tolerance: key("error asked for: relative in F* and δ*, absolute in e", "(0, 0.2]", "0.02"),
+    }
+}
+
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct BedTable {
     scene: String,
+}
+
+keys! {
+    BedTable {
+        scene: key("scene to run with the law, beside the case file", "an existing file", "'solder-bed.toml'"),
+    }
 }
 
 impl Case {
@@ -128,6 +180,12 @@ impl Case {
     /// range or one that looks like a slip of its unit and is not named in `unusual`; both name key, what was found and what is allowed.
     pub fn parse(text: &str, path: &Path) -> Result<Self> {
         Self::from_document(&Document::new(path, text))
+    }
+
+    /// Keys of a case file.
+    #[must_use]
+    pub fn keys() -> Kind {
+        CaseFile::kind()
     }
 
     /// Check a case file that has been read already.

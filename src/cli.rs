@@ -5,7 +5,12 @@ use clap::Parser;
 
 /// Contact laws for discrete-element codes, from simulated impacts of yielding particles.
 #[derive(Debug, Parser)]
-#[command(version, about, propagate_version = true)]
+#[command(
+    version,
+    about,
+    propagate_version = true,
+    disable_help_subcommand = true
+)]
 pub struct Cli {
     /// What to do.
     #[command(subcommand)]

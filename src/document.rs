@@ -1,11 +1,16 @@
 //! Document: a TOML input file with its text, and errors that point into it.
 
+pub mod keys;
+pub mod reference;
+pub mod schema;
+
 use crate::unit::Quantity;
 use crate::{Error, Place, Result};
 use serde::de::DeserializeOwned;
 use sha2::{Digest, Sha256};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 use toml::de::{DeTable, DeValue};
 
 /// TOML input file: path for messages, text for spans and the hash.
@@ -13,7 +18,20 @@ use toml::de::{DeTable, DeValue};
 pub struct Document {
     path: PathBuf,
     text: String,
+    reader: Reader,
 }
+
+/// What reads a document, once something did: it knows what the keys mean. Not part of what a document is.
+#[derive(Debug, Clone, Default)]
+struct Reader(OnceLock<fn() -> keys::Kind>);
+
+impl PartialEq for Reader {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+impl Eq for Reader {}
 
 impl Document {
     /// Read a file.
@@ -31,6 +49,7 @@ impl Document {
         Document {
             path: path.to_owned(),
             text: text.into(),
+            reader: Reader::default(),
         }
     }
 
@@ -73,7 +92,8 @@ impl Document {
     ///
     /// # Errors
     /// [`Error::Syntax`] with the key and its span: not TOML, unknown or missing key, wrong type, bad quantity.
-    pub fn parse<T: DeserializeOwned>(&self) -> Result<T> {
+    pub fn parse<T: DeserializeOwned + keys::Value>(&self) -> Result<T> {
+        self.reader.0.get_or_init(|| T::kind);
         toml::from_str(&self.text).map_err(|error| {
             let span = error.span();
             let message = in_plain_words(&error.message().trim_end().replace('\n', "; "));
@@ -91,11 +111,11 @@ impl Document {
             };
             Error::Syntax {
                 path: self.path.clone(),
+                place: self.place(span, key.as_deref()),
                 message: match key {
                     Some(key) => format!("`{key}`: {message}"),
                     None => message,
                 },
-                place: self.place(span),
             }
         })
     }
@@ -121,15 +141,22 @@ impl Document {
             key: key.to_owned(),
             found,
             allowed: allowed.into(),
-            place: self.place(span),
+            place: self.place(span, Some(key)),
         }
     }
 
-    fn place(&self, span: Option<Range<usize>>) -> Option<Box<Place>> {
+    /// A place in the text, with what the reference says of the key that stands there.
+    fn place(&self, span: Option<Range<usize>>, key: Option<&str>) -> Option<Box<Place>> {
+        let explained = || {
+            let root = self.reader.0.get()?();
+            let key = root.at(key?)?;
+            Some(format!("{} is {}", key.name, reference::sentence(key)))
+        };
         span.map(|span| {
             Box::new(Place {
                 text: self.text.clone(),
                 span,
+                explanation: explained(),
             })
         })
     }
@@ -287,6 +314,7 @@ fn visit_value(value: &DeValue, path: &str, visit: Visit) {
 
 #[cfg(test)]
 mod tests {
+    use super::keys::{key, keys, table};
     use super::*;
     use crate::unit::{Length, Velocity};
     use serde::Deserialize;
@@ -301,6 +329,14 @@ mod tests {
         shape: Option<Shape>,
     }
 
+    keys! {
+        File {
+            particle: table("the particle"),
+            speeds: key("speeds", "> 0", "['1 m/s']").or("none"),
+            shape: table("its shape").or("none"),
+        }
+    }
+
     #[derive(Debug, Deserialize)]
     #[serde(deny_unknown_fields)]
     #[allow(dead_code)] // as above
@@ -308,11 +344,53 @@ mod tests {
         radius: Quantity<Length>,
     }
 
+    keys! {
+        Particle {
+            radius: key("radius of the sphere", "> 0", "'250 um'"),
+        }
+    }
+
     #[derive(Debug, Deserialize)]
     #[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
     #[allow(dead_code)] // as above
     enum Shape {
         Ball { radius: Quantity<Length> },
+        Cube { edge: Quantity<Length> },
+    }
+
+    keys! {
+        enum Shape by "kind" {
+            Ball as "ball" "A ball." {
+                radius: key("radius", "> 0", "'1 m'"),
+            }
+            Cube as "cube" "A cube." {
+                edge: key("edge", "> 0", "'1 m'"),
+            }
+        } and {
+        }
+    }
+
+    #[test]
+    fn an_error_explains_its_key_and_one_about_no_key_does_not() {
+        let explanation = |text: &str| {
+            let document = Document::new(Path::new("f.toml"), text);
+            let error = match document.parse::<File>() {
+                Ok(_) => document.reject("particle.radius", "must be positive"),
+                Err(error) => error,
+            };
+            let (Error::Syntax { place, .. } | Error::Value { place, .. }) = error else {
+                panic!("{error:?}")
+            };
+            place.and_then(|place| place.explanation)
+        };
+        let radius = "radius is radius of the sphere: length, > 0, required, e.g. \"250 um\"";
+        for text in ["[particle]\nradius = 3\n", "[particle]\nradius = \"0 m\"\n"] {
+            assert_eq!(explanation(text).as_deref(), Some(radius), "{text}");
+        }
+        let ball =
+            explanation("[particle]\nradius = \"1 m\"\n[shape]\nkind = \"ball\"\nradius = 1\n");
+        assert!(ball.is_none() || ball.unwrap().contains("shape"));
+        assert_eq!(explanation("[particle]\nradus = 3\n"), None);
     }
 
     fn message(text: &str) -> (String, Option<Range<usize>>) {

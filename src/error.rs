@@ -99,6 +99,8 @@ pub struct Place {
     pub text: String,
     /// Byte range in it.
     pub span: Range<usize>,
+    /// What the reference says of the key that stands there.
+    pub explanation: Option<String>,
 }
 
 /// Result of a stage.

@@ -1,6 +1,6 @@
 //! Program entry: parse, dispatch, print the error, exit code (0 ok, 1 a result fails a stated threshold, 2 could not run).
 
-use clap::Parser;
+use clap::{CommandFactory, Parser};
 use impactlaw::cli::Cli;
 use impactlaw::command::{Context, Verdict, diagnostic};
 use impactlaw::{Error, Result};
@@ -11,7 +11,9 @@ use tracing::Level;
 fn main() -> ExitCode {
     let cli = Cli::parse();
     trace(&cli);
-    match start_threads(cli.threads).and_then(|()| cli.verb.run(&Context::of_process(cli.quiet))) {
+    match start_threads(cli.threads)
+        .and_then(|()| cli.verb.run(&Context::of_process(cli.quiet, Cli::command)))
+    {
         Ok(Verdict::Met) => ExitCode::SUCCESS,
         Ok(Verdict::Missed) => ExitCode::from(1),
         Err(error) => {

@@ -4,6 +4,7 @@ use crate::Result;
 use crate::case::Case;
 use crate::curve::{Particle, Summary, Tangential};
 use crate::document::Document;
+use crate::document::keys::{Kind, Value as _, key, keys, table};
 use crate::material::{Flow, Material, ReferenceUnits};
 use crate::unit::{Density, Length, Pressure, Quantity, Velocity};
 use rand::{RngExt, SeedableRng};
@@ -32,10 +33,25 @@ struct StudyFile {
     accuracy: AccuracyTable,
 }
 
+keys! {
+    StudyFile {
+        particle: table("the particles"),
+        material: table("their materials"),
+        impact: table("speeds"),
+        accuracy: table("what the runs are planned for"),
+    }
+}
+
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct ParticleTable {
     radius: Vec<Quantity<Length>>,
+}
+
+keys! {
+    ParticleTable {
+        radius: key("radii", "> 0", "['250 um']"),
+    }
 }
 
 #[derive(Debug, Deserialize)]
@@ -47,16 +63,37 @@ struct MaterialTable {
     poisson_ratio: Vec<f64>,
 }
 
+keys! {
+    MaterialTable {
+        density: key("densities", "> 0", "['1000 kg/m3', '8000 kg/m3']"),
+        young_modulus: key("Young's moduli", "> 0", "['100 GPa']"),
+        young_over_yield: key("E/Y", "> 1", "[20, 80]"),
+        poisson_ratio: key("Poisson's ratios", "[0, 0.5)", "[0.35]"),
+    }
+}
+
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct ImpactTable {
     velocities: Vec<Quantity<Velocity>>,
 }
 
+keys! {
+    ImpactTable {
+        velocities: key("impact speeds", "> 0", "['10 m/s', '50 m/s']"),
+    }
+}
+
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct AccuracyTable {
     tolerance: f64,
+}
+
+keys! {
+    AccuracyTable {
+        tolerance: key("as in a case file", "(0, 0.2]", "0.02"),
+    }
 }
 
 impl Study {
@@ -66,6 +103,12 @@ impl Study {
     /// As [`Case::read`], for every entry of every list.
     pub fn read(path: &Path) -> Result<Self> {
         Self::from_document(&Document::read(path)?)
+    }
+
+    /// Keys of a study file.
+    #[must_use]
+    pub fn keys() -> Kind {
+        StudyFile::kind()
     }
 
     /// Check a study file that has been read already.

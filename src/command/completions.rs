@@ -2,8 +2,7 @@
 
 use super::{Command, Context, Verdict, print};
 use crate::Result;
-use crate::cli::Cli;
-use clap::{Args, CommandFactory};
+use clap::Args;
 use clap_complete::{Shell, generate};
 
 /// Print the completion script of a shell.
@@ -24,9 +23,14 @@ impl Command for CompletionsArgs {
     ///
     /// # Errors
     /// As [`print()`].
-    fn run(&self, _context: &Context) -> Result<Verdict> {
+    fn run(&self, context: &Context) -> Result<Verdict> {
         let mut script = Vec::new();
-        generate(self.shell, &mut Cli::command(), "impactlaw", &mut script);
+        generate(
+            self.shell,
+            &mut (context.program)(),
+            "impactlaw",
+            &mut script,
+        );
         print(&String::from_utf8_lossy(&script))?;
         Ok(Verdict::Met)
     }

@@ -28,7 +28,15 @@ pub fn text(error: &Error) -> String {
 const LONGEST_LINE: usize = 1000;
 
 fn report(error: &Error) -> Report {
-    let Some((path, Place { text, span })) = place(error) else {
+    let Some((
+        path,
+        Place {
+            text,
+            span,
+            explanation,
+        },
+    )) = place(error)
+    else {
         return Report::new(MietteDiagnostic::new(error.to_string()));
     };
     let start = span.start.min(text.len());
@@ -38,7 +46,11 @@ fn report(error: &Error) -> Report {
         return Report::new(MietteDiagnostic::new(message));
     }
     let label = LabeledSpan::new(Some("here".to_owned()), start, span.len());
-    Report::new(MietteDiagnostic::new(error.to_string()).with_label(label))
+    let mut diagnostic = MietteDiagnostic::new(error.to_string()).with_label(label);
+    if let Some(explanation) = explanation {
+        diagnostic = diagnostic.with_help(explanation);
+    }
+    Report::new(diagnostic)
         .with_source_code(NamedSource::new(path.display().to_string(), text.clone()))
 }
 
@@ -61,6 +73,7 @@ fn place(error: &Error) -> Option<(&Path, &Place)> {
 
 #[cfg(test)]
 mod tests {
+    use crate::case::Case;
     use crate::document::Document;
 
     #[test]
@@ -90,7 +103,7 @@ mod tests {
         let text = super::text(&document.reject("radius", "must be positive"));
         assert!(text.contains("(line 2, column 10)"), "{text}");
         let wide = format!("[p]{}\n", " ".repeat(70_000) + "]");
-        let error = Document::new("c.toml".as_ref(), wide).parse::<toml::Table>();
+        let error = Case::parse(&wide, "c.toml".as_ref());
         let text = super::text(&error.unwrap_err());
         assert!(text.contains("line 1, column 70004"), "{text}");
     }

@@ -1,9 +1,8 @@
 //! `man`: manual pages, one for the program and one a verb.
 
 use super::{Command, Context, Verdict, check_writable};
-use crate::cli::Cli;
 use crate::{Error, Result};
-use clap::{Args, CommandFactory};
+use clap::Args;
 use std::path::PathBuf;
 
 /// Write the manual pages: `impactlaw.1`, and one a verb.
@@ -20,10 +19,10 @@ impl Command for ManArgs {
     ///
     /// # Errors
     /// [`Error::File`] when they cannot be written.
-    fn run(&self, _context: &Context) -> Result<Verdict> {
+    fn run(&self, context: &Context) -> Result<Verdict> {
         check_writable(&self.folder)?;
         std::fs::create_dir_all(&self.folder)
-            .and_then(|()| clap_mangen::generate_to(Cli::command(), &self.folder))
+            .and_then(|()| clap_mangen::generate_to((context.program)(), &self.folder))
             .map_err(Error::file("write manual pages to", &self.folder))?;
         Ok(Verdict::Met)
     }

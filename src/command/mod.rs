@@ -11,11 +11,13 @@ pub mod cost;
 pub mod diagnostic;
 pub mod export;
 pub mod fit;
+pub mod help;
 pub mod impact;
 pub mod law;
 pub mod man;
 pub mod plan;
 pub mod run;
+pub mod schema;
 pub mod show;
 pub mod study;
 pub mod theory;
@@ -84,6 +86,8 @@ verbs! {
     Units(units::UnitsArgs),
     Completions(completions::CompletionsArgs),
     Man(man::ManArgs),
+    Schema(schema::SchemaArgs),
+    Help(help::HelpArgs),
 }
 
 /// What a command knows besides its own arguments.
@@ -93,6 +97,8 @@ pub struct Context {
     pub command: String,
     /// `-q`: say nothing but errors.
     pub quiet: bool,
+    /// The program's verbs and options, for what is written about them.
+    pub program: fn() -> clap::Command,
 }
 
 /// How a command that ran to its end came out; the exit code.
@@ -107,7 +113,7 @@ pub enum Verdict {
 impl Context {
     /// Context of this process.
     #[must_use]
-    pub fn of_process(quiet: bool) -> Self {
+    pub fn of_process(quiet: bool, program: fn() -> clap::Command) -> Self {
         let words = std::env::args_os()
             .skip(1)
             .map(|word| quoted(&word.to_string_lossy()));
@@ -115,7 +121,11 @@ impl Context {
             .chain(words)
             .collect::<Vec<_>>()
             .join(" ");
-        Context { command, quiet }
+        Context {
+            command,
+            quiet,
+            program,
+        }
     }
 
     /// One line that says what made a file: program version, hash of the case, command.

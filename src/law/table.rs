@@ -1,5 +1,6 @@
 //! Tables of a law file: the parts that say how good and how general a law is.
 
+use crate::document::keys::{self, key, keys, table};
 use crate::fit::confidence::LeftOut;
 use crate::fit::quality::Quality;
 use crate::material::flow::{FlowConstants, InSi, WithFlow};
@@ -31,6 +32,20 @@ struct ElasticTable {
     poisson_ratio: f64,
 }
 
+keys! {
+    ElasticTable {
+        density_kg_m3: key("density, kg/m³", "> 0", "7274.0"),
+        young_modulus_pa as "young_modulus_Pa": key("Young's modulus, Pa", "> 0", "5.982e10"),
+        poisson_ratio: key("Poisson's ratio", "[0, 0.5)", "0.33"),
+    }
+}
+
+impl keys::Value for MaterialTable {
+    fn kind() -> keys::Kind {
+        WithFlow::<ElasticTable, InSi>::kind()
+    }
+}
+
 impl From<WithFlow<ElasticTable, InSi>> for MaterialTable {
     fn from(table: WithFlow<ElasticTable, InSi>) -> Self {
         let WithFlow { others, flow } = table;
@@ -56,6 +71,14 @@ pub struct YieldTable {
     pub force_over_radius2_pa: f64,
 }
 
+keys! {
+    YieldTable {
+        pressure_ratio: key("peak Hertz pressure at first yield over Y", "> 0", "1.6"),
+        displacement_over_radius: key("δ_y/R", "that of the material", "1.33e-5"),
+        force_over_radius2_pa as "force_over_radius2_Pa": key("F_y/R², Pa", "that of the material", "4365.5"),
+    }
+}
+
 /// `[valid]`: what the impacts covered.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -68,6 +91,14 @@ pub struct ValidTable {
     pub velocity_max_m_s: f64,
 }
 
+keys! {
+    ValidTable {
+        displacement_over_radius_max: key("largest δ/R of the impacts", "> 0", "0.124"),
+        velocity_min_m_s: key("slowest impact, m/s", "> 0", "5.0"),
+        velocity_max_m_s: key("fastest impact, m/s", "≥ the slowest", "30.0"),
+    }
+}
+
 /// `[thresholds]`: relative errors from which on the law counts as missed, and a left-out speed as a warning.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -78,6 +109,14 @@ pub struct ThresholdTable {
     pub error: f64,
     /// The same at a speed left out of the fit; beyond it there is a warning.
     pub left_out: f64,
+}
+
+keys! {
+    ThresholdTable {
+        tolerance: key("accuracy of the impacts: the case's", "", "0.02"),
+        error: key("largest error of F*, δ* and e at any speed; beyond it `fit` and `run` end with exit code 1", "", "0.03"),
+        left_out: key("the same at a speed left out of the fit; beyond it there is a warning", "", "0.1"),
+    }
 }
 
 /// `[provenance]`.
@@ -97,6 +136,16 @@ pub struct ProvenanceTable {
     pub skipped_velocities_m_s: Vec<f64>,
 }
 
+keys! {
+    ProvenanceTable {
+        program: key("program and version", "", "'impactlaw 0.1.0'"),
+        case: key("name of the case", "", "'solder-ball'"),
+        case_sha256: key("SHA-256 of the case file", "", "'99a5...'"),
+        radius_m: key("radius that was simulated, m", "> 0", "0.00025"),
+        skipped_velocities_m_s: key("impacts that were not used, m/s", "", "[50.0]").or("none"),
+    }
+}
+
 /// `[*.unloading]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -111,6 +160,15 @@ pub struct UnloadingTable {
     pub exponent_strain: f64,
 }
 
+keys! {
+    UnloadingTable {
+        residual_scale: key("c: flattening past w₁ on which the residual grows", "> 0", "32.46"),
+        residual_power: key("k: how fast the recovered part falls", "> 0", "0.69"),
+        exponent_residual: key("n₁: change of the exponent with the residual", "≥ -0.5", "-0.40"),
+        exponent_strain: key("n₂: growth of the exponent with δ/R", "≥ 0", "11.8"),
+    }
+}
+
 /// `[*.unloading_intervals]`: 95 % intervals of the unloading constants.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -123,6 +181,15 @@ pub struct UnloadingIntervals {
     pub exponent_residual: [f64; 2],
     /// Of n_2.
     pub exponent_strain: [f64; 2],
+}
+
+keys! {
+    UnloadingIntervals {
+        residual_scale: key("95 % interval of c", "", "[7.1, 22.4]"),
+        residual_power: key("95 % interval of k", "", "[7.1, 22.4]"),
+        exponent_residual: key("95 % interval of n₁", "", "[7.1, 22.4]"),
+        exponent_strain: key("95 % interval of n₂", "", "[7.1, 22.4]"),
+    }
 }
 
 /// `[closed_form]`.
@@ -150,6 +217,19 @@ pub struct ClosedFormTable {
     pub left_out: Vec<LeftOutRow>,
 }
 
+keys! {
+    ClosedFormTable {
+        departure: key("w₁: flattening at which loading leaves Hertz's, in δ_y", "> 0", "0.19"),
+        breadth: key("b: breadth of the transition", "> 0", "20.3"),
+        softening: key("q: how far the exponent falls", "[0, 4/3)", "1.28"),
+        inertia: key("κ of the inertia term of first loading", "≥ 0", "10.2").or("none: not seen"),
+        unloading: table("unloading branches"),
+        intervals: table("95 % intervals, by bootstrap over the impacts").or("none: fewer than five speeds"),
+        quality: table("relative errors, one table a speed"),
+        left_out: table("errors at speeds left out of the fit").or("none: one speed"),
+    }
+}
+
 /// `[closed_form.intervals]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -165,6 +245,16 @@ pub struct ClosedFormIntervals {
     pub inertia: Option<[f64; 2]>,
     /// Of the unloading.
     pub unloading: UnloadingIntervals,
+}
+
+keys! {
+    ClosedFormIntervals {
+        departure: key("95 % interval of w₁", "", "[0.19, 0.33]"),
+        breadth: key("95 % interval of b", "", "[0.19, 0.33]"),
+        softening: key("95 % interval of q", "", "[0.19, 0.33]"),
+        inertia: key("95 % interval of κ", "", "[9.1, 11.3]").or("none"),
+        unloading: table("of the unloading constants"),
+    }
 }
 
 /// `[spline]`.
@@ -190,6 +280,18 @@ pub struct SplineTable {
     pub left_out: Vec<LeftOutRow>,
 }
 
+keys! {
+    SplineTable {
+        hertz_to: key("w₁: flattening at which loading leaves Hertz's, in δ_y", "> 0", "0.2"),
+        knots: key("`[w, f, df/dw]` past it", "rising", "[[10.0, 25.0, 3.1]]"),
+        inertia: key("κ of the inertia term of first loading", "≥ 0", "10.2").or("none: not seen"),
+        unloading: table("unloading branches"),
+        intervals: table("95 % intervals, by bootstrap over the impacts").or("none: fewer than five speeds"),
+        quality: table("relative errors, one table a speed"),
+        left_out: table("errors at speeds left out of the fit").or("none: one speed"),
+    }
+}
+
 /// `[spline.intervals]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -203,6 +305,14 @@ pub struct SplineIntervals {
     pub unloading: UnloadingIntervals,
 }
 
+keys! {
+    SplineIntervals {
+        knot_force: key("95 % interval of f at each knot", "", "[[24.0, 26.0]]"),
+        inertia: key("95 % interval of κ", "", "[7.5, 8.6]").or("none"),
+        unloading: table("of the unloading constants"),
+    }
+}
+
 /// `[hertz]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -211,6 +321,13 @@ pub struct HertzTable {
     pub reason: String,
     /// Errors, one row a speed.
     pub quality: Vec<QualityRow>,
+}
+
+keys! {
+    HertzTable {
+        reason: key("why the law is Hertz's", "", "'nothing yielded'"),
+        quality: table("relative errors, one table a speed"),
+    }
 }
 
 /// Relative errors at one speed.
@@ -233,6 +350,19 @@ pub struct QualityRow {
     pub loading_force_rms: f64,
     /// Root mean square force in unloading over F*.
     pub unloading_force_rms: f64,
+}
+
+keys! {
+    QualityRow {
+        velocity_m_s: key("speed, m/s", "", "5.0"),
+        max_force: key("error of F*", "", "0.004"),
+        max_displacement: key("error of δ*", "", "-0.002"),
+        restitution: key("error of e", "", "0.01"),
+        residual_displacement: key("error of δ_res over δ*", "", "0.003"),
+        contact_time: key("error of the contact time", "", "0.002"),
+        loading_force_rms: key("root mean square force error in loading over F*", "", "0.01"),
+        unloading_force_rms: key("the same in unloading", "", "0.01"),
+    }
 }
 
 impl From<&Quality> for QualityRow {
@@ -262,6 +392,15 @@ pub struct LeftOutRow {
     pub max_displacement: f64,
     /// e.
     pub restitution: f64,
+}
+
+keys! {
+    LeftOutRow {
+        velocity_m_s: key("speed, m/s", "", "5.0"),
+        max_force: key("error of F*", "", "0.004"),
+        max_displacement: key("error of δ*", "", "-0.002"),
+        restitution: key("error of e", "", "0.01"),
+    }
 }
 
 impl From<&LeftOut> for LeftOutRow {

@@ -1,6 +1,9 @@
 //! Constants of a flow stress as files name them: key, physical dimension, allowed range.
 
-use crate::unit::{Pressure, Quantity, SpecificHeat, StrainRate, Temperature, engineering};
+use crate::document::keys::{Key, Kind, Line, key};
+use crate::unit::{
+    self, Pressure, Quantity, SpecificHeat, StrainRate, Temperature, Units, engineering,
+};
 use serde::{Deserialize, Deserializer};
 
 /// A constant of a flow stress. Everything that reads or writes one walks tables of these.
@@ -18,6 +21,12 @@ pub struct Constant {
     pub range: Range,
     /// Whether a file may leave it out, which means 0: no effect.
     pub may_be_absent: bool,
+    /// What it means, for the reference of keys.
+    pub meaning: &'static str,
+    /// A value as an input file spells it, single quotes for double ones.
+    pub example: &'static str,
+    /// What holds where a file does not name it.
+    pub otherwise: &'static str,
 }
 
 /// Physical dimension of a constant.
@@ -53,6 +62,34 @@ impl Constant {
         self.key.replace('_', " ")
     }
 
+    /// Its key in files that spell quantities as text.
+    #[must_use]
+    pub fn in_text(&self) -> Key {
+        Key {
+            name: self.key.to_owned(),
+            kind: match self.dimension.units() {
+                Some(units) => Kind::Quantity(units),
+                None => Kind::Number,
+            },
+            line: key(self.meaning, self.range.words(), self.example).or(self.otherwise),
+        }
+    }
+
+    /// Its key in files that hold plain numbers in SI.
+    #[must_use]
+    pub fn in_si(&self) -> Key {
+        let line = key(self.meaning, self.range.words(), "").or(self.otherwise);
+        let value = self.dimension.si(self.example.trim_matches('\''));
+        Key {
+            name: format!("{}{}", self.key, self.dimension.suffix()),
+            kind: Kind::Number,
+            line: Line {
+                example: format!("{value:?}").into(),
+                ..line
+            },
+        }
+    }
+
     /// Name as a heading: "Yield strength Y".
     #[must_use]
     pub fn title(&self) -> String {
@@ -73,6 +110,30 @@ impl Dimension {
             Dimension::Temperature => "K",
             Dimension::SpecificHeat => "J/(kg K)",
         }
+    }
+
+    /// Its units in input files; none for a number.
+    #[must_use]
+    pub const fn units(self) -> Option<Units> {
+        match self {
+            Dimension::Number => None,
+            Dimension::Stress => Some(Units::of::<Pressure>()),
+            Dimension::Rate => Some(Units::of::<StrainRate>()),
+            Dimension::Temperature => Some(Units::of::<Temperature>()),
+            Dimension::SpecificHeat => Some(Units::of::<SpecificHeat>()),
+        }
+    }
+
+    /// SI value of a text; not a number for one that is none of this dimension.
+    fn si(self, text: &str) -> f64 {
+        let value = match self {
+            Dimension::Number => text.parse().ok(),
+            Dimension::Stress => unit::parse::<Pressure>(text).ok(),
+            Dimension::Rate => unit::parse::<StrainRate>(text).ok(),
+            Dimension::Temperature => unit::parse::<Temperature>(text).ok(),
+            Dimension::SpecificHeat => unit::parse::<SpecificHeat>(text).ok(),
+        };
+        value.unwrap_or(f64::NAN)
     }
 
     /// End of a key whose value is a plain number in SI: `_Pa` in `yield_strength_Pa`.
@@ -125,6 +186,16 @@ impl Range {
             Range::Positive => x > 0.0,
             Range::NotNegative => x >= 0.0,
             Range::BelowYoungModulus => x > 0.0 && x < young_modulus,
+        }
+    }
+
+    /// The range as the reference of keys says it.
+    #[must_use]
+    pub const fn words(self) -> &'static str {
+        match self {
+            Range::Positive => "> 0",
+            Range::NotNegative => "≥ 0",
+            Range::BelowYoungModulus => "> 0, < E",
         }
     }
 

@@ -13,5 +13,6 @@ mod program;
 mod reference;
 mod report_page;
 mod resume;
+mod schema;
 mod study;
 mod verbs;

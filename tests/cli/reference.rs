@@ -1,11 +1,16 @@
 //! References of the guide: every key a reader accepts and every column a writer writes has its line, and no other.
 
 use crate::program::{impactlaw, message};
+use clap::CommandFactory;
 use impactlaw::bed::scene::Scene;
 use impactlaw::case::Case;
+use impactlaw::cli::Cli;
+use impactlaw::command::help::{self, markdown};
+use impactlaw::command::schema::FILES;
 use impactlaw::cost::accuracy::Line;
 use impactlaw::curve::{Summary, Tangential};
 use impactlaw::document::Document;
+use impactlaw::document::reference::{Section as Place, sections};
 use impactlaw::law::LawFile;
 use impactlaw::study::Study;
 use std::collections::{BTreeMap, BTreeSet};
@@ -21,8 +26,6 @@ fn chapter(name: &str) -> String {
 
 /// A heading of a reference with the names its table explains.
 struct Section {
-    /// The heading above it.
-    chapter: String,
     heading: String,
     names: BTreeSet<String>,
 }
@@ -33,14 +36,11 @@ fn spans(text: &str) -> Vec<&str> {
 }
 
 /// Sections of a reference: each heading below `level`, with the names in the first cells of its table.
-fn sections(text: &str, level: &str) -> Vec<Section> {
-    let (mut all, mut chapter): (Vec<Section>, _) = (Vec::new(), String::new());
+fn headings(text: &str, level: &str) -> Vec<Section> {
+    let mut all: Vec<Section> = Vec::new();
     for line in text.lines() {
-        if let Some(heading) = line.strip_prefix("# ") {
-            chapter = heading.to_owned();
-        } else if let Some(heading) = line.strip_prefix(level) {
+        if let Some(heading) = line.strip_prefix(level) {
             all.push(Section {
-                chapter: chapter.clone(),
                 heading: heading.to_owned(),
                 names: BTreeSet::new(),
             });
@@ -57,12 +57,16 @@ fn sections(text: &str, level: &str) -> Vec<Section> {
 
 /// What the reader of a kind of file says of a text it refuses.
 fn refusal(kind: &str, text: &str) -> String {
-    let document = Document::new(Path::new("file.toml"), text);
+    let text = match kind {
+        "law" => format!("schema = 1\n{text}"),
+        _ => text.to_owned(),
+    };
+    let document = Document::new(Path::new("file.toml"), &text[..]);
     let error = match kind {
-        "Case file" => Case::from_document(&document).err(),
-        "Study file" => Study::from_document(&document).err(),
-        "Scene file" => Scene::parse(text, Path::new("file.toml")).err(),
-        "Law file" => LawFile::parse(&document).err(),
+        "case" => Case::from_document(&document).err(),
+        "study" => Study::from_document(&document).err(),
+        "scene" => Scene::parse(&text, Path::new("file.toml")).err(),
+        "law" => LawFile::parse(&document).err(),
         other => panic!("no reader of {other}"),
     };
     error
@@ -78,107 +82,131 @@ fn expected(message: &str, wrong: &str) -> BTreeSet<String> {
     spans(rest).into_iter().map(str::to_owned).collect()
 }
 
-/// The TOML a heading stands for, and the path of the table it opens.
-fn opened(heading: &str) -> (String, String) {
-    let lines = spans(heading);
-    let mut tables = lines.iter().filter(|line| line.starts_with('['));
-    let path = tables
-        .next_back()
-        .map_or("", |line| line.trim_matches(['[', ']']));
-    (lines.join("\n"), path.to_owned())
-}
-
-/// Whether what a reader says of `true` where `key` is to be means that a table belongs there.
-fn is_table(kind: &str, opening: &str, key: &str) -> bool {
-    ["true", "[true]"].iter().any(|value| {
-        let said = refusal(kind, &format!("{opening}\n{key} = {value}\n"));
-        assert!(!said.contains("unknown field"), "{kind}: {said}");
-        let tables = ["struct", "a table", "a map", "tagged enum"];
-        tables
-            .iter()
-            .any(|table| said.contains(&format!("expected {table}")))
-            || said.contains("tagged enum")
-    })
-}
-
 #[test]
-fn every_key_of_every_table_has_its_line_and_no_other() {
-    let all = sections(&chapter("keys.md"), "### ");
-    for Section {
-        chapter,
-        heading,
-        names,
-    } in &all
-    {
-        let (opening, path) = opened(heading);
-        let said = refusal(chapter, &format!("{opening}\nzz = 0\n"));
-        assert_eq!(
-            *names,
-            expected(&said, "zz"),
-            "{chapter}, {heading}: {said}"
-        );
-        for key in names {
-            let below = if path.is_empty() {
-                key.clone()
-            } else {
-                format!("{path}.{key}")
-            };
-            let described = all.iter().any(|section| {
-                let (_, table) = opened(&section.heading);
-                section.chapter == *chapter && (table == below || table == format!("{below}.NAME"))
-            });
-            let wanted = is_table(chapter, &opening, key);
+fn the_readers_know_every_key_that_is_described_and_no_other() {
+    let mut count = 0;
+    for file in FILES {
+        let root = file.table();
+        for section in sections(&root) {
+            let opening = section.opening.join("\n");
+            let said = refusal(file.name, &format!("{opening}\nzz = 0\n"));
+            let described: BTreeSet<String> = section
+                .table
+                .keys
+                .iter()
+                .map(|key| key.name.clone())
+                .collect();
+            count += described.len();
+            if described.is_empty() {
+                assert!(said.contains("`zz`"), "{said}");
+                continue;
+            }
             assert_eq!(
-                described, wanted,
-                "{chapter}, {heading}: keys of the table {key}"
+                described,
+                expected(&said, "zz"),
+                "{}, {opening}: {said}",
+                file.name
             );
         }
     }
-    let chapters: BTreeSet<&str> = all.iter().map(|section| &section.chapter[..]).collect();
-    assert_eq!(chapters.len(), 4);
-    assert!(all.len() > 60, "{}", all.len());
+    assert!(count > 250, "{count}");
+}
+
+/// The keys of a table that must be there with their examples, one left out; tables are left to their own sections.
+fn without(section: &Place, left_out: &str) -> Option<String> {
+    let mut text = section.opening.join("\n");
+    for key in section
+        .table
+        .keys
+        .iter()
+        .filter(|key| key.line.default.is_none())
+    {
+        if !key.kind.tables().is_empty() {
+            return None;
+        }
+        if key.name != left_out {
+            text += &format!("\n{} = {}", key.name, key.line.example());
+        }
+    }
+    Some(text + "\n")
 }
 
 #[test]
-fn every_kind_of_stage_and_measure_has_its_heading_and_every_name_its_place() {
-    let all = sections(&chapter("keys.md"), "### ");
-    for table in ["stage", "measure"] {
-        let kinds: BTreeSet<String> = all
-            .iter()
-            .filter(|section| section.heading.starts_with(&format!("`[[{table}]]`")))
-            .map(|section| {
-                spans(&section.heading)[1]
-                    .split('"')
-                    .nth(1)
-                    .unwrap()
-                    .to_owned()
-            })
-            .collect();
-        let said = refusal("Scene file", &format!("[[{table}]]\nkind = \"zz\"\n"));
-        assert_eq!(kinds, expected(&said, "zz"), "{said}");
-    }
-    let chosen = [
-        ("Scene file", "[grains]", "insertion"),
-        ("Scene file", "[[body]]\n[body.free.joint]", "kind"),
-        ("Law file", "schema = 1", "form"),
-    ];
-    for (kind, opening, key) in chosen {
-        let said = refusal(kind, &format!("{opening}\n{key} = \"zz\"\n"));
-        let text = chapter("keys.md");
-        let line = text
-            .lines()
-            .find(|line| line.starts_with(&format!("| `{key}` | name |")))
-            .unwrap();
-        for name in expected(&said, "zz") {
-            let range = line.split('|').nth(3).unwrap();
-            assert!(range.contains(&format!("`\"{name}\"`")), "{name} in {line}");
+fn keys_without_a_default_must_be_there_and_no_other() {
+    let mut count = 0;
+    for file in FILES {
+        let root = file.table();
+        let all = sections(&root);
+        for section in all.iter().filter(|section| !section.opening.is_empty()) {
+            let Some(whole) = without(section, "") else {
+                continue;
+            };
+            let (keys, inside) = (&section.table.keys, |said: &str, name: &str| {
+                said.contains(&format!("missing field `{name}`"))
+            });
+            let said = refusal(file.name, &whole);
+            for key in keys {
+                let required = key.line.default.is_none();
+                let outside = all[0].table.key(&key.name).is_some();
+                assert!(outside || !inside(&said, &key.name), "{whole}: {said}");
+                if required {
+                    let text = without(section, &key.name).unwrap();
+                    let said = refusal(file.name, &text);
+                    assert!(inside(&said, &key.name), "{text}: {said}");
+                    count += 1;
+                }
+            }
         }
     }
+    assert!(count > 60, "{count}");
+}
+
+#[test]
+fn the_reference_of_the_guide_is_what_the_readers_are_made_of() {
+    let text = markdown();
+    assert!(
+        chapter("keys.md") == text,
+        "src/guide/keys.md is not `impactlaw help --markdown`: write it anew"
+    );
+    for line in text.lines().filter(|line| line.starts_with("| `")) {
+        let cells: Vec<&str> = line.split('|').map(str::trim).collect();
+        assert_eq!(cells.len(), 8, "{line}");
+        // type, default, example and meaning are never empty; a range may be
+        for cell in [2, 4, 5, 6] {
+            assert!(!cells[cell].is_empty() && cells[cell] != "``", "{line}");
+        }
+    }
+}
+
+#[test]
+fn help_of_every_file_fits_a_terminal_of_80_columns() {
+    for file in FILES {
+        let text = help::text(Cli::command(), &[file.name.to_owned()]).unwrap();
+        let keys = text.split("Keys of a ").nth(1).unwrap();
+        for line in keys.lines() {
+            assert!(line.chars().count() <= 80, "{line}");
+        }
+        let names = file.table().keys.into_iter().map(|key| key.name);
+        for name in names {
+            assert!(keys.contains(&format!("\n  {name} ")), "{name}");
+        }
+    }
+    let part = help::text(
+        Cli::command(),
+        &["scene".to_owned(), "body.free".to_owned()],
+    )
+    .unwrap();
+    assert!(
+        part.contains("max_torque") && !part.contains("rayleigh"),
+        "{part}"
+    );
+    assert!(help::text(Cli::command(), &["scene".to_owned(), "nothing".to_owned()]).is_err());
+    assert!(help::text(Cli::command(), &["nothing".to_owned()]).is_err());
 }
 
 /// Names in the table under each heading of the reference of columns, by the code spans of the heading.
 fn columns() -> BTreeMap<String, BTreeSet<String>> {
-    sections(&chapter("columns.md"), "## ")
+    headings(&chapter("columns.md"), "## ")
         .into_iter()
         .map(|section| (section.heading.replace('`', ""), section.names))
         .collect()

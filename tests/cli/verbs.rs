@@ -368,8 +368,11 @@ fn curves_are_the_same_for_any_number_of_threads() {
 fn the_tables_of_the_readme_have_every_verb_and_every_target_of_an_export() {
     let readme = include_str!("../../README.md");
     for verb in Cli::command().get_subcommands() {
-        let row = format!("\n| `{} ", verb.get_name());
-        assert!(readme.contains(&row), "{row}");
+        let named = |row: &str| {
+            let words = row.split('|').nth(1).unwrap_or_default().replace('`', " ");
+            row.starts_with("| `") && words.split([' ', ',']).any(|word| word == verb.get_name())
+        };
+        assert!(readme.lines().any(named), "{}", verb.get_name());
     }
     for target in Target::ALL {
         assert!(readme.contains(&format!("\n| `{target}` | ")), "{target}");

@@ -1,7 +1,9 @@
 //! Comparison against the independent finite-element impacts of `tests/data/reference` (E/Y = 80, 10 and 50 m/s).
 
 use crate::impacts::{ELASTIC, MATERIAL, RADIUS, references, sample, summary};
+use clap::CommandFactory;
 use impactlaw::case::Case;
+use impactlaw::cli::Cli;
 use impactlaw::command::compare::CompareArgs;
 use impactlaw::command::fit::FitArgs;
 use impactlaw::command::{Command, Context};
@@ -162,6 +164,7 @@ fn the_command_goes_from_impact_folders_and_a_law_file_to_both_files() {
     let context = Context {
         command: "impactlaw compare".to_owned(),
         quiet: true,
+        program: Cli::command,
     };
     let fit_args = FitArgs {
         case: case.clone(),

@@ -8,6 +8,7 @@ use crate::Result;
 use crate::dem::bodies::mesh::{self, Format};
 use crate::dem::bodies::{Body, Mobility, Solid};
 use crate::document::Document;
+use crate::document::keys::{key, keys, table};
 use crate::error::must_be_one_of;
 use crate::unit::{Angle, Length, Quantity, engineering};
 use parry3d::math::{Rotation, Vector};
@@ -35,16 +36,48 @@ pub(super) struct BodyTable {
     free: Option<FreeTable>,
 }
 
+keys! {
+    BodyTable "One shape: `block`, `ball`, `cylinder`, `plane`, `cone` or `mesh`. One way to move: fixed, `driven`, a `belt` or `free`." {
+        name: key("name, for stages and files", "a name of its own", "'tube'"),
+        material: key("a body that flattens too", "one of `materials`", "'steel'").or("rigid"),
+        block: table("a block").or("one shape"),
+        ball: table("a ball").or("one shape"),
+        cylinder: table("a cylinder").or("one shape"),
+        plane: table("the half of space below a plane").or("one shape"),
+        cone: table("the thin wall of a cone, tube or ring").or("one shape"),
+        mesh: key("triangles", "an STL or OBJ file", "'drum.stl'").or("one shape"),
+        scale: key("length that 1 in the file means", "> 0", "'1 mm'").or("required beside `mesh`"),
+        tolerance: key("corners of the mesh closer than this are one", "≥ 0, < the smallest radius", "'1 um'").or("a thousandth of the smallest radius"),
+        at: key("centre of the shape; a point of a plane; origin of a mesh", "", "['0 mm', '0 mm', '5 mm']").or("0"),
+        turn: table("turn about its centre").or("none"),
+        driven: table("told motion; an empty one waits for a stage").or("fixed"),
+        belt: table("motion of the surface of a body that stands; an empty one waits for a stage").or("fixed"),
+        free: table("motion under forces").or("fixed"),
+    }
+}
+
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct BlockTable {
     size: [Quantity<Length>; 3],
 }
 
+keys! {
+    BlockTable {
+        size: key("edges", "> 0", "['10 mm', '10 mm', '1 mm']"),
+    }
+}
+
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct BallTable {
     radius: Quantity<Length>,
+}
+
+keys! {
+    BallTable {
+        radius: key("radius", "> 0", "'6 mm'"),
+    }
 }
 
 #[derive(Debug, Deserialize)]
@@ -55,10 +88,24 @@ struct CylinderTable {
     axis: Option<[f64; 3]>,
 }
 
+keys! {
+    CylinderTable {
+        radius: key("radius", "> 0", "'6 mm'"),
+        length: key("length", "> 0", "'20 mm'"),
+        axis: key("direction of its axis", "not 0", "[1.0, 0.0, 0.0]").or("`[0, 0, 1]`"),
+    }
+}
+
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct PlaneTable {
     normal: [f64; 3],
+}
+
+keys! {
+    PlaneTable {
+        normal: key("out of the solid side", "not 0", "[0.0, 0.0, 1.0]"),
+    }
 }
 
 /// Thin wall of a cone cut off at both ends: equal radii make a tube, no height a ring.
@@ -72,6 +119,15 @@ struct ConeTable {
     sides: u32,
 }
 
+keys! {
+    ConeTable "Equal radii make a tube, no height a flat ring." {
+        bottom_radius: key("radius below", "≥ 0", "'8 mm'"),
+        top_radius: key("radius above", "≥ 0", "'21 mm'"),
+        height: key("height", "≥ 0", "'0 mm'"),
+        sides: key("flat sides it is made of", "8 to 1000", "36").or("48"),
+    }
+}
+
 fn usual_sides() -> u32 {
     48
 }
@@ -81,6 +137,13 @@ fn usual_sides() -> u32 {
 struct TurnTable {
     axis: [f64; 3],
     angle: Quantity<Angle>,
+}
+
+keys! {
+    TurnTable {
+        axis: key("axis of the turn", "not 0", "[0.0, 1.0, 0.0]"),
+        angle: key("angle", "", "'30 deg'"),
+    }
 }
 
 /// Distance between two corners of a mesh below which they are one, over the smallest radius, where the scene does not

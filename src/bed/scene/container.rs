@@ -4,6 +4,7 @@ use super::stage::Stage;
 use crate::Result;
 use crate::dem::bodies::enclosure::PISTON;
 use crate::document::Document;
+use crate::document::keys::{key, keys};
 use crate::unit::{Length, Quantity};
 use serde::Deserialize;
 
@@ -29,6 +30,14 @@ pub(super) struct BoxTable {
     width: Quantity<Length>,
     depth: Quantity<Length>,
     height: Option<Quantity<Length>>,
+}
+
+keys! {
+    BoxTable "Its walls are the bodies `left`, `right` (x), `front`, `back` (y) and `floor`; a `piston` hangs under the rim where a stage needs one." {
+        width: key("inner edge along x", "≥ 2 grain diameters; 3 if periodic", "'5 mm'"),
+        depth: key("inner edge along y", "≥ 2 grain diameters; 3 if periodic", "'5 mm'"),
+        height: key("height of the walls", "> 0", "'25 mm'").or("what the grains need"),
+    }
 }
 
 impl BoxTable {

@@ -7,6 +7,7 @@ use crate::dem::bodies::belt::Belt;
 use crate::dem::bodies::motion::{Motion, Oscillation, Servo};
 use crate::dem::bodies::{Freedom, Joint, JointKind, Motor, Solid};
 use crate::document::Document;
+use crate::document::keys::{key, keys, names, table};
 use crate::unit::{
     AngularVelocity, Density, Force, Frequency, Length, Mass, Quantity, Torque, Velocity,
 };
@@ -23,12 +24,29 @@ pub(super) struct DrivenTable {
     servo: Option<ServoTable>,
 }
 
+keys! {
+    DrivenTable "What is not given does not move." {
+        velocity: key("steady velocity", "", "['0 m/s', '0 m/s', '25 mm/s']").or("0"),
+        spin: table("steady turn").or("none"),
+        oscillation: table("vibration on top").or("none"),
+        servo: table("moves until the grains resist with a force").within("stands alone").or("none"),
+    }
+}
+
 #[derive(Debug, Clone, Copy, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct SpinTable {
     axis: [f64; 3],
     rate: Quantity<AngularVelocity>,
     about: Option<[Quantity<Length>; 3]>,
+}
+
+keys! {
+    SpinTable {
+        axis: key("axis", "not 0", "[0.0, 1.0, 0.0]"),
+        rate: key("angular velocity", "", "'30 rpm'"),
+        about: key("point of the axis", "", "['0 mm', '0 mm', '0 mm']").or("its centre"),
+    }
 }
 
 #[derive(Debug, Clone, Copy, Deserialize)]
@@ -39,6 +57,14 @@ struct OscillationTable {
     frequency: Quantity<Frequency>,
 }
 
+keys! {
+    OscillationTable {
+        direction: key("direction", "not 0", "[0.0, 0.0, 1.0]"),
+        amplitude: key("amplitude", "> 0", "'0.5 mm'"),
+        frequency: key("frequency", "> 0", "'50 Hz'"),
+    }
+}
+
 #[derive(Debug, Clone, Copy, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct ServoTable {
@@ -47,12 +73,27 @@ struct ServoTable {
     speed: Quantity<Velocity>,
 }
 
+keys! {
+    ServoTable {
+        direction: key("direction it presses in", "not 0", "[0.0, 0.0, -1.0]"),
+        force: key("force it presses with", "> 0", "'2 N'"),
+        speed: key("largest speed", "> 0", "'0.1 m/s'"),
+    }
+}
+
 /// Motion of a surface along itself.
 #[derive(Debug, Clone, Copy, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct BeltTable {
     velocity: Option<[Quantity<Velocity>; 3]>,
     spin: Option<SpinTable>,
+}
+
+keys! {
+    BeltTable "Grains feel the surface move along itself; the body stands." {
+        velocity: key("of the surface: its part along it counts", "", "['0.5 m/s', '0 m/s', '0 m/s']").or("0"),
+        spin: table("turn of the surface, as of a roller").within("not of a plane").or("none"),
+    }
 }
 
 /// Motion under forces.
@@ -68,6 +109,17 @@ pub(super) struct FreeTable {
     held: bool,
 }
 
+keys! {
+    FreeTable {
+        mass: key("mass", "> 0", "'7 g'").or("or `density`"),
+        density: key("density; the shape must be closed", "> 0", "'7800 kg/m3'").or("or `mass`"),
+        velocity: key("to begin with", "", "['0 m/s', '0 m/s', '-1 m/s']").or("0"),
+        force: key("steady load on top of gravity", "", "['0 N', '0 N', '-5 N']").or("0"),
+        joint: table("joint to the ground").or("none"),
+        held: key("stays where it is until a stage releases it", "", "true").or("false"),
+    }
+}
+
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct JointTable {
@@ -75,6 +127,15 @@ struct JointTable {
     axis: Option<[f64; 3]>,
     point: Option<[Quantity<Length>; 3]>,
     motor: Option<MotorTable>,
+}
+
+keys! {
+    JointTable {
+        kind: key("what it leaves free", "`\"prismatic\"`, `\"revolute\"`, `\"spherical\"`, `\"fixed\"`", "'prismatic'"),
+        axis: key("axis to slide along or turn about", "not 0", "[0.0, 0.0, 1.0]").or("required for the first two"),
+        point: key("where the joint is", "", "['0 mm', '0 mm', '0 mm']").or("the body's centre"),
+        motor: table("drives the first two kinds").or("none"),
+    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
@@ -86,6 +147,8 @@ enum JointName {
     Fixed,
 }
 
+names! { JointName { Prismatic as "prismatic", Revolute as "revolute", Spherical as "spherical", Fixed as "fixed", } }
+
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct MotorTable {
@@ -93,6 +156,15 @@ struct MotorTable {
     max_force: Option<Quantity<Force>>,
     rate: Option<Quantity<AngularVelocity>>,
     max_torque: Option<Quantity<Torque>>,
+}
+
+keys! {
+    MotorTable {
+        velocity: key("speed wanted", "", "'10 mm/s'").or("prismatic"),
+        max_force: key("what it can do at most", "> 0", "'2 N'").or("prismatic"),
+        rate: key("angular velocity wanted", "", "'30 rpm'").or("revolute"),
+        max_torque: key("what it can do at most", "> 0", "'2.5 mN m'").or("revolute"),
+    }
 }
 
 impl DrivenTable {

@@ -8,6 +8,7 @@ use super::written::OneOrMany;
 use super::written::vector;
 use crate::Result;
 use crate::document::Document;
+use crate::document::keys::{key, keys, names, table};
 use crate::error::must_be_one_of;
 use crate::unit::{Length, Mass, MassRate, Quantity, Velocity};
 use parry3d::math::Vector;
@@ -64,6 +65,8 @@ enum InsertionName {
     Stream,
 }
 
+names! { InsertionName { Lattice as "lattice", Pour as "pour", Stream as "stream", } }
+
 /// Table `[grains]` or `[[grains]]` as it is written.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -83,11 +86,36 @@ pub(super) struct GroupTable {
     stir: Option<Quantity<Velocity>>,
 }
 
+keys! {
+    GroupTable "Also as a list, `[[grains]]`, one table a group. A group that a stage names in `insert` comes in from then on, every other one from the start." {
+        name: key("name, for `insert`; wanted where there are several groups", "each once", "'shot'").or("`\"grains\"`"),
+        count: key("number of grains", "≥ 1", "800").or("or `mass`"),
+        mass: key("mass, reached by the last grain", "> 0", "'5 g'").or("or `count`"),
+        radius: key("radius, or its mean", "> 0", "'250 um'").or("one way of three"),
+        spread: key("evenly spread radii: share of `radius` up and down", "[0, 0.5)", "0.1").or("0"),
+        sieve: table("sizes as sieve classes").within("at least one").or("one way of three"),
+        lognormal: table("sizes with a normal logarithm, cut off at both ends").or("one way of three"),
+        material: key("material of the grains", "one of `materials`", "'steel'").or("the only one"),
+        insertion: key("all at once; lattice after lattice as room becomes free; one by one at a rate", "`\"lattice\"`, `\"pour\"`, `\"stream\"`", "'pour'").or("`\"lattice\"`"),
+        rate: key("mass that comes in a second", "> 0", "'5 g/s'").or("required for a stream"),
+        region: table("where they come in; grains begin wholly inside").or("the box (lattice only)"),
+        velocity: key("they come in with", "", "['0 m/s', '0 m/s', '-1 m/s']").or("0"),
+        stir: key("root mean square of random velocities on top, along each axis", "≥ 0", "'0.2 m/s'").or("0"),
+    }
+}
+
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct SieveTable {
     radius: Quantity<Length>,
     share: f64,
+}
+
+keys! {
+    SieveTable {
+        radius: key("radius of the class", "> 0", "'1 mm'"),
+        share: key("its share of the mass; shares need not add up to 1", "> 0", "0.3"),
+    }
 }
 
 #[derive(Debug, Deserialize)]
@@ -97,6 +125,15 @@ struct LogNormalTable {
     deviation: f64,
     smallest: Quantity<Length>,
     largest: Quantity<Length>,
+}
+
+keys! {
+    LogNormalTable {
+        median: key("median radius", "> 0", "'1 mm'"),
+        deviation: key("standard deviation of the logarithm of the radius", "(0, 1]", "0.2"),
+        smallest: key("where it is cut off below", "> 0, < median", "'0.6 mm'"),
+        largest: key("where it is cut off above", "> median, ≤ 20 × smallest", "'1.6 mm'"),
+    }
 }
 
 pub(super) fn check_groups(

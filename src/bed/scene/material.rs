@@ -3,6 +3,7 @@
 use crate::bed::scene::FITTED;
 use crate::case::ElasticTable;
 use crate::document::Document;
+use crate::document::keys::{key, keys};
 use crate::error::must_be_one_of;
 use crate::law::{AnyLaw, LawFile};
 use crate::material::Material;
@@ -27,6 +28,15 @@ pub(super) struct ElasticAndLaw {
     young_modulus: Option<Quantity<Pressure>>,
     poisson_ratio: Option<f64>,
     law: Option<String>,
+}
+
+keys! {
+    ElasticAndLaw "Constants may be left to the law file that `law` names, all or none." {
+        density: key("density", "> 0", "'2500 kg/m3'").or("of the law file"),
+        young_modulus: key("Young's modulus", "> 0", "'70 GPa'").or("of the law file"),
+        poisson_ratio: key("Poisson's ratio", "[0, 0.5)", "0.22").or("of the law file"),
+        law: key("normal law of the material", "a law file, `\"fitted\"` (that of `--law`) or a theory", "'hertz'").or("`laws` decides"),
+    }
 }
 
 /// Law of one material.

@@ -5,6 +5,7 @@ use super::region::RegionTable;
 use super::written::vector;
 use crate::Result;
 use crate::document::Document;
+use crate::document::keys::{key, keys, table};
 use crate::error::must_be_one_of;
 use crate::unit::{Length, Quantity};
 use serde::Deserialize;
@@ -67,6 +68,24 @@ pub(super) enum MeasureTable {
     },
 }
 
+keys! {
+    enum MeasureTable by "kind" {
+        Repose as "repose" "Angle of repose of the heap at the end." {
+            axis: key("where the heap's vertical axis meets the floor", "", "['0 mm', '0 mm', '0 mm']"),
+        }
+        Slope as "slope" "Mean slope of the free surface in a drum that turns about the axis y, in the last stage." {
+        }
+        Flow as "flow" "Mass flow down through a horizontal plane." {
+            height: key("height of the plane", "", "'55 mm'"),
+            orifice: table("orifice to compare with Beverloo's law").or("none"),
+        }
+        Plunge as "plunge" "Depth and deceleration of a body that falls into the bed." {
+            body: key("the body", "of a body", "'ball'"),
+        }
+    } and {
+    }
+}
+
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct OrificeTable {
@@ -75,6 +94,15 @@ pub(super) struct OrificeTable {
     coefficient: f64,
     k: f64,
     filling: RegionTable,
+}
+
+keys! {
+    OrificeTable {
+        diameter: key("diameter", "> 0", "'16 mm'"),
+        coefficient as "C": key("Beverloo's C", "> 0", "0.58"),
+        k: key("Beverloo's k", "> 0", "1.4"),
+        filling: table("where the bulk density of the filling is taken"),
+    }
 }
 
 pub(super) fn check_measures(

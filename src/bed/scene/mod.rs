@@ -19,6 +19,7 @@ mod stage;
 mod written;
 
 use crate::dem::force::named::Constants;
+use crate::document::keys::{Kind, Value as _, key, keys, table};
 pub use container::Container;
 pub use group::{Amount, Group, Insertion};
 pub use material::{GrainMaterial, LawChoice, OWN};
@@ -127,6 +128,28 @@ struct SceneFile {
     output: OutputTable,
 }
 
+keys! {
+    SceneFile {
+        laws: key("laws the scene is run under, one after the other from one packing", "`\"fitted\"` or a theory, each once", "['fitted', 'hertz']").or("every material's own `law`"),
+        seed: key("of everything random", "≥ 0", "1"),
+        gravity: key("along -z, or a vector", "magnitude ≥ 0", "'9.81 m/s2'"),
+        periodic: key("sides of the box that are periodic instead of walls", "`\"x\"`, `\"y\"`", "['x', 'y']").or("none"),
+        material: table("the material, if there is one").or("one of the two required"),
+        materials: table("the materials by name, if there are several").or("one of the two required"),
+        grains: table("groups of grains"),
+        contact: table("effects beside the normal law").or("no effects"),
+        pair: table("effects of two materials in contact").or("none"),
+        container as "box": table("a box on the floor z = 0 with a corner at the origin").or("none"),
+        domain: table("block that grains must not leave; required beside a plane, refused beside a box").or("box, or block around the bodies"),
+        body: table("bodies beside the box").or("none"),
+        outlet: table("where grains leave").or("none"),
+        time: table("time step").or("as its keys"),
+        stage: table("what happens, in order").within("at least one"),
+        measure: table("what is to be measured").or("none"),
+        output: table("files").or("as its keys"),
+    }
+}
+
 impl Scene {
     /// Reads and checks a scene file, the law files and meshes it names included.
     ///
@@ -142,6 +165,12 @@ impl Scene {
     /// [`crate::Error::Syntax`] and [`crate::Error::Value`], naming key, what was found and what is allowed.
     pub fn parse(text: &str, path: &Path) -> Result<Self> {
         Self::from_document(&Document::new(path, text))
+    }
+
+    /// Keys of a scene file.
+    #[must_use]
+    pub fn keys() -> Kind {
+        SceneFile::kind()
     }
 
     fn from_document(document: &Document) -> Result<Self> {

@@ -6,6 +6,7 @@ use super::region::{Region, RegionTable};
 use super::written::vector;
 use crate::Result;
 use crate::document::Document;
+use crate::document::keys::{key, keys, table};
 use crate::unit::{Length, Quantity};
 use parry3d::math::Vector;
 use serde::Deserialize;
@@ -71,11 +72,26 @@ pub(super) struct OutletTable {
     plane: Option<PlaneTable>,
 }
 
+keys! {
+    OutletTable "One place: `region` or `plane`. A grain leaves when its centre is there; grains must not come in there." {
+        name: key("name, for the figures", "each once", "'mouth'").or("`\"outlet\"`"),
+        region: table("part of space").within("at least 5 of the smallest radius thick").or("one place"),
+        plane: table("all that lies beyond a plane").within("across no periodic side").or("one place"),
+    }
+}
+
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct PlaneTable {
     at: [Quantity<Length>; 3],
     normal: [f64; 3],
+}
+
+keys! {
+    PlaneTable {
+        at: key("a point of the plane", "", "['0 mm', '0 mm', '-5 mm']"),
+        normal: key("direction in which grains leave", "not 0", "[0.0, 0.0, -1.0]"),
+    }
 }
 
 /// What outlets are checked against.

@@ -3,6 +3,7 @@
 use super::written::vector;
 use crate::Result;
 use crate::document::Document;
+use crate::document::keys::{key, keys};
 use crate::unit::{Length, Quantity};
 use parry3d::math::Vector;
 use serde::Deserialize;
@@ -82,6 +83,16 @@ pub(super) struct RegionTable {
     base: Option<[Quantity<Length>; 3]>,
     radius: Option<Quantity<Length>>,
     height: Option<Quantity<Length>>,
+}
+
+keys! {
+    RegionTable "A block (`low`, `high`) or an upright cylinder (`base`, `radius`, `height`)." {
+        low: key("lowest corner", "", "['0 mm', '0 mm', '5 mm']").or("block"),
+        high: key("highest corner", "above `low`", "['5 mm', '5 mm', '9 mm']").or("block"),
+        base: key("middle of its bottom", "", "['0 mm', '0 mm', '0 mm']").or("cylinder"),
+        radius: key("radius", "> 0", "'24 mm'").or("cylinder"),
+        height: key("height", "> 0", "'200 mm'").or("cylinder"),
+    }
 }
 
 impl RegionTable {

@@ -8,6 +8,7 @@ use crate::dem::force::list::effects;
 use crate::dem::force::named::Constants;
 use crate::dem::force::rolling::RollingSpring;
 use crate::document::Document;
+use crate::document::keys::{key, keys};
 use crate::unit::{Quantity, Time};
 use serde::Deserialize;
 
@@ -45,6 +46,13 @@ macro_rules! tables {
             stiffness: Option<f64>,
         }
 
+        keys! {
+            ContactTable "An effect that is not named does not act, and costs nothing." {
+                $($key: <$kind as Named>::LINE.or("none"),)+
+                stiffness: key("contact stiffness over that of the material; reported with the results", "(0, 1]", "1e-3").or("1"),
+            }
+        }
+
         impl ContactTable {
             pub(super) fn check(self, document: &Document) -> Result<Constants> {
                 if let Some(stiffness) = self.stiffness {
@@ -66,6 +74,13 @@ macro_rules! tables {
         pub(super) struct PairTable {
             pub(super) between: [String; 2],
             $($key: Option<f64>,)+
+        }
+
+        keys! {
+            PairTable "What is not named is as in `[contact]`." {
+                between: key("the two materials", "of `materials`", "['copper', 'steel']"),
+                $($key: <$kind as Named>::LINE.or("of `[contact]`"),)+
+            }
         }
 
         impl PairTable {
@@ -91,6 +106,14 @@ pub(super) struct TimeTable {
     rayleigh_fraction: Option<f64>,
     steps_per_contact: Option<f64>,
     step: Option<Quantity<Time>>,
+}
+
+keys! {
+    TimeTable "The step is the largest that both limits allow, and follows the stiffest contact." {
+        rayleigh_fraction: key("largest share of the Rayleigh time", "(0, 0.5]", "0.2").or("0.2"),
+        steps_per_contact: key("least steps in the half oscillation of a grain on its stiffest contact", "8 to 1e6", "40").or("20; more for a `restitution` below 0.2 (under a spring 0.5), 37 (80) for 0.05"),
+        step: key("a step of your own", "> 0, within both limits", "'1 us'").or("none"),
+    }
 }
 
 /// How the time step follows from the stiffest contact.
@@ -160,6 +183,17 @@ pub struct OutputTable {
     pub contacts: bool,
     /// Whether grains are also written as `dump.lammpstrj`, with the VTP frames.
     pub dump: bool,
+}
+
+keys! {
+    OutputTable {
+        rows: key("rows of the CSV files in a stage", "≥ 1", "100").or("100"),
+        frames: key("frames of the VTP series in a stage", "≥ 0", "8").or("4"),
+        film: key("frames of `bed.html` in a stage; 0: no page", "≥ 0", "50").or("25"),
+        animation: key("most frames of `animation.png`; 0: none; needs `film`", "≥ 0", "100").or("0"),
+        contacts: key("contacts as CSV, one file a VTP frame", "", "true").or("false"),
+        dump: key("grains as `dump.lammpstrj`, with the VTP frames", "", "true").or("false"),
+    }
 }
 
 impl Default for OutputTable {

@@ -7,6 +7,7 @@ use crate::Result;
 use crate::dem::bodies::motion::Motion;
 use crate::dem::force::named::Constants;
 use crate::document::Document;
+use crate::document::keys::{key, keys, table};
 use crate::error::must_be_one_of;
 use crate::unit::{Energy, Force, Length, Pressure, Quantity, Time, Velocity};
 use parry3d::math::Vector;
@@ -39,6 +40,32 @@ pub(super) enum StageTable {
     Run(RunTable),
 }
 
+keys! {
+    enum StageTable by "kind" {
+        Settle as "settle" "Fall and come to rest; the packing all laws start from. Contacts are elastic meanwhile, and may be softer than true." {
+            stiffness: key("contact stiffness over that of the material", "(0, 1]", "1e-3").or("of `[contact]`"),
+            friction: key("friction meanwhile: little packs densely", "≥ 0", "0.0").or("of `[contact]`"),
+            restitution: key("restitution meanwhile: a low one settles quickly", "(0, 1]", "0.3").or("of `[contact]`"),
+            longest: key("it ends then in any case", "> 0", "'100 ms'"),
+            rest_speed: key("root mean square speed below which the bed is at rest", "> 0", "'2 mm/s'"),
+        }
+        Relax as "relax" "After a softer `settle`: raises the stiffness to that of the scene." {
+            steps: key("time steps it takes", "≥ 1", "4000"),
+        }
+        Compress as "compress" "Lowers the piston of the box." {
+            speed: key("of the piston", "> 0", "'0.5 m/s'"),
+            seating_stress: key("stress from which strain counts", "> 0", "'50 kPa'"),
+            seating_travel: key("travel over which that stress must be sustained", "> 0", "'125 um'").or("none"),
+            strain: key("strain at which the stage ends", "(0, 0.2]", "0.035"),
+        }
+        Unload as "unload" "Raises the piston until it carries nothing." {
+            speed: key("of the piston", "> 0", "'0.5 m/s'"),
+        }
+    } and {
+        Run as "run" (RunTable)
+    }
+}
+
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RunTable {
@@ -51,6 +78,17 @@ pub(super) struct RunTable {
     moves: Vec<MoveTable>,
     #[serde(default)]
     until: UntilTable,
+}
+
+keys! {
+    RunTable "Goes on, with changes at its start, until the time is over or a condition holds." {
+        name: key("name in files", "", "'discharge'").or("`\"run\"`"),
+        duration: key("longest duration", "> 0", "'2 s'").or("or `steps`"),
+        steps: key("longest duration, in time steps", "≥ 1", "2000").or("or `duration`"),
+        insert: key("groups that come in from its start on", "of groups", "['shot']").or("none"),
+        moves as "move": table("changes of bodies at its start").or("none"),
+        until: table("conditions that end it earlier, any of them").or("none"),
+    }
 }
 
 #[derive(Debug, Clone, Deserialize)]
@@ -67,6 +105,17 @@ pub(super) struct MoveTable {
     release: bool,
 }
 
+keys! {
+    MoveTable "One change a table." {
+        body: key("the body", "of a body or wall", "'gate'"),
+        driven: table("goes on with this motion").or("one change"),
+        belt: table("its surface goes on with this motion; `{}` stops it").within("a body that is a belt").or("one change"),
+        stop: key("stands still", "", "true").or("false"),
+        remove: key("is taken out of the bed", "", "true").or("false"),
+        release: key("is let go", "a held body", "true").or("false"),
+    }
+}
+
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct UntilTable {
@@ -77,11 +126,28 @@ pub(super) struct UntilTable {
     flow_ended: Option<Quantity<Time>>,
 }
 
+keys! {
+    UntilTable {
+        rest_speed: key("all grains are in and their root mean square speed is below", "> 0", "'2 mm/s'").or("none"),
+        kinetic_energy: key("all grains are in and their kinetic energy is below", "> 0", "'2 uJ'").or("none"),
+        stress: key("the stress on the box's piston is above", "> 0", "'1 MPa'").or("none"),
+        force: table("the force of the grains on a body is above").or("none"),
+        flow_ended: key("for this time no grain has gone through the plane of the measure `flow`, after the first one", "> 0", "'0.1 s'").or("none"),
+    }
+}
+
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct ForceTable {
     body: String,
     above: Quantity<Force>,
+}
+
+keys! {
+    ForceTable {
+        body: key("the body", "of a body or wall", "'plate'"),
+        above: key("the force", "> 0", "'2.5 N'"),
+    }
 }
 
 /// What stages refer to.

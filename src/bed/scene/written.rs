@@ -2,6 +2,7 @@
 
 use crate::Result;
 use crate::document::Document;
+use crate::document::keys::{self, Kind};
 use crate::unit::{Acceleration, Quantity};
 use parry3d::math::Vector;
 use serde::Deserialize;
@@ -22,6 +23,25 @@ pub(super) enum Gravity {
 pub(super) enum OneOrMany<T> {
     One(Box<T>),
     Many(Vec<T>),
+}
+
+impl<T: keys::Value> keys::Value for OneOrMany<T> {
+    fn kind() -> Kind {
+        match T::kind() {
+            Kind::Table(table) => Kind::OneOrMany(table),
+            other => other,
+        }
+    }
+}
+
+impl keys::Value for Gravity {
+    fn kind() -> Kind {
+        let one = Quantity::<Acceleration>::kind();
+        Kind::Either(
+            Box::new(one.clone()),
+            Box::new(Kind::Array(3, Box::new(one))),
+        )
+    }
 }
 
 impl<T> OneOrMany<T> {

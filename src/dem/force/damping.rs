@@ -3,6 +3,7 @@
 use super::edge::weight;
 use super::effects::{Contact, Effect, Named};
 use super::losses::Losses;
+use crate::document::keys::{Line, key};
 use crate::material::Material;
 use crate::tape::keep_fields;
 use parry3d::math::Vector;
@@ -133,6 +134,11 @@ impl Viscous {
 }
 
 impl Named for Viscous {
+    const LINE: Line = key(
+        "restitution of elastic contacts, by viscous damping: had within 1 % at every speed; a law that yields loses more",
+        "(0, 1]",
+        "0.8",
+    );
     const MUST: &'static str = "must lie in (0, 1]";
     const WITHOUT: &'static str = "no damping";
     const NEEDS: Option<(&'static str, &'static str)> = None;

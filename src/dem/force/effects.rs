@@ -18,6 +18,7 @@ use super::edge::{edge, weight};
 use super::losses::Losses;
 use super::meeting::{Meeting, Push};
 use crate::contact::pair::Pressed;
+use crate::document::keys::Line;
 use crate::material::Material;
 use crate::tape::{Keep, keep_fields};
 use parry3d::math::Vector;
@@ -50,6 +51,8 @@ pub trait Effect: Clone + Send + Sync + 'static {
 
 /// An effect as scenes name it, by one constant.
 pub trait Named: Effect {
+    /// Its key in the reference: what it means, its range, a value.
+    const LINE: Line;
     /// What its constant must be, for messages.
     const MUST: &'static str;
     /// What there is without it, for messages: "leave it out for ...".

@@ -4,6 +4,7 @@ use super::effects::{Contact, Effect, Named};
 use super::losses::Losses;
 use super::meeting::Meeting;
 use super::slider::Slider;
+use crate::document::keys::{Line, key};
 use crate::material::Material;
 use parry3d::math::Vector;
 
@@ -75,6 +76,11 @@ fn shear_stiffness(sides: [Option<&Material>; 2]) -> f64 {
 }
 
 impl Named for Mindlin {
+    const LINE: Line = key(
+        "Coulomb's friction coefficient, with Mindlin's spring",
+        "> 0",
+        "0.3",
+    );
     const MUST: &'static str = "must be positive";
     const WITHOUT: &'static str = "smooth grains";
     const NEEDS: Option<(&'static str, &'static str)> = None;

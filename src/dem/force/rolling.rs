@@ -4,6 +4,7 @@ use super::effects::{Contact, Effect, Named};
 use super::friction::Mindlin;
 use super::losses::Losses;
 use super::slider::Slider;
+use crate::document::keys::{Line, key};
 use crate::material::Material;
 use parry3d::math::Vector;
 
@@ -41,6 +42,11 @@ impl RollingSpring {
 }
 
 impl Named for RollingSpring {
+    const LINE: Line = key(
+        "rolling friction coefficient; needs `friction`",
+        "> 0",
+        "0.05",
+    );
     const MUST: &'static str = "must be positive";
     const WITHOUT: &'static str = "free rolling";
     const NEEDS: Option<(&'static str, &'static str)> =

@@ -12,6 +12,9 @@ const HARDENING_MODULUS: Constant = Constant {
     dimension: Dimension::Stress,
     range: Range::NotNegative,
     may_be_absent: true,
+    meaning: "slope of the flow stress over the equivalent plastic strain; needs a yield strength",
+    example: "'500 MPa'",
+    otherwise: "0",
 };
 
 flow_stress! {

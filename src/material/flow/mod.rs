@@ -31,6 +31,9 @@ pub const YIELD_STRENGTH: Constant = Constant {
     dimension: Dimension::Stress,
     range: Range::BelowYoungModulus,
     may_be_absent: false,
+    meaning: "yield strength Y (von Mises)",
+    example: "'97.59 MPa'",
+    otherwise: "none: elastic",
 };
 
 /// Flow stress $\sigma_y(\varepsilon_p, \Delta\varepsilon_p / \Delta t, ...)$ of a material point, in reference units.

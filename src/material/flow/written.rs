@@ -3,6 +3,7 @@
 use super::{Flow, YIELD_STRENGTH};
 use crate::Result;
 use crate::document::Document;
+use crate::document::keys::{self, Key, Kind, Table};
 use crate::material::constant::Constant;
 use serde::Deserialize;
 use serde::de::value::{MapAccessDeserializer, StrDeserializer};
@@ -15,6 +16,8 @@ use std::marker::PhantomData;
 pub trait Spelling {
     /// Key of a constant.
     fn key(constant: &Constant) -> String;
+    /// That key with its line in the reference.
+    fn described(constant: &Constant) -> Key;
     /// SI value of what stands there.
     ///
     /// # Errors
@@ -37,6 +40,9 @@ impl Spelling for InText {
     fn key(constant: &Constant) -> String {
         constant.key.to_owned()
     }
+    fn described(constant: &Constant) -> Key {
+        constant.in_text()
+    }
     fn read<'de, D: Deserializer<'de>>(
         constant: &Constant,
         from: D,
@@ -48,6 +54,9 @@ impl Spelling for InText {
 impl Spelling for InSi {
     fn key(constant: &Constant) -> String {
         format!("{}{}", constant.key, constant.dimension.suffix())
+    }
+    fn described(constant: &Constant) -> Key {
+        constant.in_si()
     }
     fn read<'de, D: Deserializer<'de>>(
         _: &Constant,
@@ -199,6 +208,18 @@ impl<'de, T: Deserialize<'de>, W: Spelling> Deserialize<'de> for WithFlow<T, W> 
     }
 }
 
+impl<T: keys::Value, W: Spelling> keys::Value for WithFlow<T, W> {
+    fn kind() -> Kind {
+        match T::kind() {
+            Kind::Table(Table { about, mut keys }) => {
+                keys.extend(Flow::all_constants().iter().map(W::described));
+                Kind::Table(Table { about, keys })
+            }
+            other => other,
+        }
+    }
+}
+
 struct TableVisitor<T, W>(PhantomData<(T, W)>);
 
 impl<'de, T: Deserialize<'de>, W: Spelling> Visitor<'de> for TableVisitor<T, W> {
@@ -242,8 +263,8 @@ impl<'de, A: MapAccess<'de>, W: Spelling> MapAccess<'de> for Others<'_, A, W> {
             })?;
             match key {
                 None => return Ok(None),
-                Some(Key::Other(key)) => return Ok(Some(key)),
-                Some(Key::Flow(constant)) => {
+                Some(Found::Other(key)) => return Ok(Some(key)),
+                Some(Found::Flow(constant)) => {
                     let value = self
                         .map
                         .next_value_seed(ValueSeed::<W>(constant, PhantomData))?;
@@ -262,7 +283,7 @@ impl<'de, A: MapAccess<'de>, W: Spelling> MapAccess<'de> for Others<'_, A, W> {
 }
 
 /// A key of a table.
-enum Key<T> {
+enum Found<T> {
     Flow(Constant),
     Other(T),
 }
@@ -274,7 +295,7 @@ struct KeySeed<'a, K, W> {
 }
 
 impl<'de, K: DeserializeSeed<'de>, W: Spelling> DeserializeSeed<'de> for KeySeed<'_, K, W> {
-    type Value = Key<K::Value>;
+    type Value = Found<K::Value>;
 
     fn deserialize<D: Deserializer<'de>>(
         self,
@@ -285,7 +306,7 @@ impl<'de, K: DeserializeSeed<'de>, W: Spelling> DeserializeSeed<'de> for KeySeed
 }
 
 impl<'de, K: DeserializeSeed<'de>, W: Spelling> Visitor<'de> for KeySeed<'_, K, W> {
-    type Value = Key<K::Value>;
+    type Value = Found<K::Value>;
 
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.write_str("a key")
@@ -294,14 +315,14 @@ impl<'de, K: DeserializeSeed<'de>, W: Spelling> Visitor<'de> for KeySeed<'_, K, 
     fn visit_str<E: Error>(self, key: &str) -> std::result::Result<Self::Value, E> {
         let constants = Flow::all_constants();
         if let Some(constant) = constants.iter().find(|c| W::key(c) == key) {
-            return Ok(Key::Flow(*constant));
+            return Ok(Found::Flow(*constant));
         }
         let seed = self
             .seed
             .take()
             .ok_or_else(|| E::custom("a key read twice"))?;
         let other = seed.deserialize(StrDeserializer::<E>::new(key));
-        other.map(Key::Other).map_err(|error| {
+        other.map(Found::Other).map_err(|error| {
             let keys: Vec<String> = constants
                 .iter()
                 .map(|c| format!("`{}`", W::key(c)))
