@@ -222,13 +222,13 @@ impl Case {
     /// The case with the speeds of `--velocity`, when any are given.
     ///
     /// # Errors
-    /// [`Error::Argument`] for a text that is not a positive speed, or for one given twice.
+    /// [`Error::Refused`] for a text that is not a positive speed, or for one given twice.
     pub fn with_velocities(mut self, texts: &[String]) -> Result<Self> {
         if texts.is_empty() {
             return Ok(self);
         }
-        let reject = |text: &str, allowed: &str| Error::Argument {
-            argument: "--velocity".to_owned(),
+        let reject = |text: &str, allowed: &str| Error::Refused {
+            what: "--velocity".to_owned(),
             found: format!("\"{text}\""),
             allowed: allowed.to_owned(),
         };

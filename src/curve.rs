@@ -1,6 +1,6 @@
 //! Curve of one impact: time series and summary, in memory and as the files `curve.csv` and `summary.json`.
 
-use crate::files::{write_atomic, write_rows};
+use crate::files::{Sum, rows_text, sum_of, with_sum, write_atomic, write_rows};
 use crate::material::flow::{FlowConstants, InSi, WithFlow};
 use crate::material::{Flow, Material};
 use crate::unit::engineering;
@@ -326,10 +326,15 @@ impl ParticleMap {
 
 /// All rows of a CSV file, `#` lines skipped.
 fn read_rows<T: serde::de::DeserializeOwned>(path: &Path) -> Result<Vec<T>> {
-    let file = std::fs::File::open(path).map_err(Error::file("read", path))?;
+    let bytes = std::fs::read(path).map_err(Error::file("read", path))?;
+    rows_of(&bytes, path)
+}
+
+/// The rows of the `bytes` of the CSV file `path`.
+fn rows_of<T: serde::de::DeserializeOwned>(bytes: &[u8], path: &Path) -> Result<Vec<T>> {
     csv::ReaderBuilder::new()
         .comment(Some(b'#'))
-        .from_reader(file)
+        .from_reader(bytes)
         .deserialize()
         .collect::<std::result::Result<Vec<T>, _>>()
         .map_err(|e| Error::Syntax {
@@ -388,33 +393,52 @@ impl Curve {
 }
 
 impl Impact {
-    /// Read `curve.csv` and `summary.json` from the folder of one impact.
+    /// Read `curve.csv` and `summary.json` from the folder of one impact. A summary without a sum is warned of.
     ///
     /// # Errors
-    /// [`Error::File`] and [`Error::Syntax`] as for the two files.
+    /// [`Error::File`] and [`Error::Syntax`] as for the two files; [`Error::File`] when they are not as they were written.
     pub fn read(folder: &Path) -> Result<Self> {
         let path = folder.join("summary.json");
         let text = std::fs::read_to_string(&path).map_err(Error::file("read", &path))?;
+        let curve = folder.join("curve.csv");
+        let bytes = std::fs::read(&curve).map_err(Error::file("read", &curve))?;
+        match sum_of(&text, &bytes) {
+            Sum::Fits => {}
+            Sum::Absent => tracing::warn!(
+                "{} has no `sha256`: whether it or curve.csv was damaged or changed cannot be told",
+                path.display()
+            ),
+            Sum::Differs => {
+                let why = "it or curve.csv is damaged, or was changed since: its `sha256` does not fit; make the impact again, \
+                           or remove that key if the change is meant";
+                let why = std::io::Error::new(std::io::ErrorKind::InvalidData, why);
+                return Err(Error::file("use", &path)(why));
+            }
+        }
         let summary = serde_json::from_str(&text).map_err(|e| Error::Syntax {
             path: path.clone(),
             message: e.to_string(),
             place: None,
         })?;
+        let samples = rows_of(&bytes, &curve)?;
         Ok(Impact {
             summary,
-            curve: Curve::read(&folder.join("curve.csv"))?,
+            curve: Curve { samples },
         })
     }
 
-    /// Write `curve.csv` and `summary.json` into `folder`.
+    /// Write `curve.csv` and `summary.json`, which carries the sum of both, into `folder`.
     ///
     /// # Errors
     /// [`Error::File`] when a file cannot be written.
     pub fn write(&self, folder: &Path, provenance: &str) -> Result<()> {
-        self.curve.write(&folder.join("curve.csv"), provenance)?;
+        let curve = rows_text(provenance, &self.curve.samples);
+        let path = folder.join("curve.csv");
+        let curve = curve.map_err(|e| Error::file("write", &path)(e))?;
+        write_atomic(&path, &curve)?;
         let path = folder.join("summary.json");
-        let text = serde_json::to_string_pretty(&self.summary)
-            .map_err(|e| Error::file("write", &path)(e.into()))?;
+        let text = with_sum(&self.summary, &curve);
+        let text = text.map_err(|e| Error::file("write", &path)(e.into()))?;
         write_atomic(&path, text.as_bytes())
     }
 }

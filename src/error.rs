@@ -52,6 +52,16 @@ pub enum Error {
         /// What is allowed.
         allowed: String,
     },
+    /// What the library was given cannot be used.
+    #[error("{what}: found {found}; {allowed}")]
+    Refused {
+        /// What it is.
+        what: String,
+        /// What was given.
+        found: String,
+        /// What is allowed.
+        allowed: String,
+    },
     /// An impact run cannot go on.
     #[error("impact at {velocity} m/s stopped at step {step}: {reason}")]
     Impact {
@@ -113,8 +123,8 @@ impl Error {
         found: &str,
         names: impl IntoIterator<Item = N>,
     ) -> Error {
-        Error::Argument {
-            argument: argument.to_owned(),
+        Error::Refused {
+            what: argument.to_owned(),
             found: format!("`{found}`"),
             allowed: must_be_one_of(names),
         }

@@ -1,4 +1,11 @@
-//! Atomic writes: a file is either the old one or the whole new one, never a part.
+//! Atomic writes: a file is either the old one or the whole new one, never a part. Folders that are claimed, and files that
+//! carry their sum.
+
+mod claim;
+mod sum;
+
+pub use claim::Claim;
+pub use sum::{Sum, sum_of, with_sum};
 
 use crate::{Error, Result};
 use serde::Serialize;
@@ -22,9 +29,14 @@ pub fn write_atomic(path: &Path, bytes: &[u8]) -> Result<()> {
     Ok(())
 }
 
+/// How names of temporary files begin and end; what is left of them is removed by the next [`Claim`].
+const PREFIX: &str = ".impactlaw-";
+const SUFFIX: &str = ".part";
+
 /// Temporary file with the permissions any new file gets (tempfile's own are for the owner alone).
 fn temporary(folder: &Path) -> std::io::Result<tempfile::NamedTempFile> {
     let mut builder = tempfile::Builder::new();
+    builder.prefix(PREFIX).suffix(SUFFIX);
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
@@ -38,16 +50,20 @@ fn temporary(folder: &Path) -> std::io::Result<tempfile::NamedTempFile> {
 /// # Errors
 /// [`Error::File`] when the file cannot be written.
 pub fn write_rows<R: Serialize>(path: &Path, provenance: &str, rows: &[R]) -> Result<()> {
+    let bytes = rows_text(provenance, rows).map_err(Error::file("write", path))?;
+    write_atomic(path, &bytes)
+}
+
+/// Rows as [`write_rows`] writes them.
+///
+/// # Errors
+/// For rows that are none: of another length than the first.
+pub fn rows_text<R: Serialize>(provenance: &str, rows: &[R]) -> std::io::Result<Vec<u8>> {
     let mut writer = csv::Writer::from_writer(format!("# {provenance}\n").into_bytes());
     for row in rows {
-        writer
-            .serialize(row)
-            .map_err(|e| Error::file("write", path)(e.into()))?;
+        writer.serialize(row)?;
     }
-    let bytes = writer
-        .into_inner()
-        .map_err(|e| Error::file("write", path)(e.into_error()))?;
-    write_atomic(path, &bytes)
+    writer.into_inner().map_err(|e| e.into_error())
 }
 
 /// Row of numbers as [`write_rows`] writes them: shortest digits that read back bit for bit.

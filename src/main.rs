@@ -59,6 +59,8 @@ fn trace(cli: &Cli) {
         .with_writer(std::io::stderr)
         .with_ansi(std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none())
         .with_target(false)
+        // it would be told of on stderr, which is what could not be written, and panic
+        .log_internal_errors(false)
         .without_time()
         .init();
 }

@@ -1,5 +1,9 @@
 //! Study: a grid of cases, and which of them are the same run in dimensionless terms.
 
+mod kept;
+
+pub use kept::KeptRun;
+
 use crate::Result;
 use crate::case::Case;
 use crate::curve::{Particle, Summary, Tangential};
@@ -11,6 +15,9 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use serde::Deserialize;
 use std::path::Path;
+
+/// Most cases of a study: more are a slip of a list, or want to be several files.
+const MOST_CASES: usize = 100_000;
 
 /// A grid of cases, each with one speed, in the order of the file: radius, density, modulus, ratio E/Y, Poisson's ratio,
 /// speed (the last one fastest).
@@ -142,6 +149,26 @@ impl Study {
             |tolerance| tolerance > 0.0 && tolerance <= 0.2,
             "must lie in (0, 0.2], e.g. 0.02 for two per cent",
         )?;
+        let lists = [
+            ("particle.radius", radii.len()),
+            ("material.density", densities.len()),
+            ("material.young_modulus", moduli.len()),
+            ("material.young_over_yield", ratios.len()),
+            ("material.poisson_ratio", poissons.len()),
+            ("impact.velocities", velocities.len()),
+        ];
+        check_count(document, &lists)?;
+        let heaviest = densities.iter().copied().fold(0.0, f64::max);
+        let softest = moduli.iter().copied().fold(f64::INFINITY, f64::min);
+        let weakest = softest / ratios.iter().copied().fold(1.0, f64::max);
+        for (i, v) in velocities.iter().enumerate() {
+            document.check(
+                &format!("impact.velocities[{i}]"),
+                *v,
+                |v| (heaviest * v * v / weakest).is_finite() && heaviest * v * v <= softest,
+                "must not be above the speed of sound sqrt(E/rho) of any of the materials; check the unit",
+            )?;
+        }
         let case = |radius: f64, material: Material, velocity: f64| Case {
             name: document.name(),
             path: document.path().to_owned(),
@@ -179,6 +206,20 @@ impl Study {
             cases,
         })
     }
+}
+
+/// That the lists, each with its key, make a number of cases that can be held.
+fn check_count(document: &Document, lists: &[(&str, usize)]) -> Result<()> {
+    let all = lists
+        .iter()
+        .try_fold(1usize, |all, (_, length)| all.checked_mul(*length));
+    if all.is_some_and(|all| all <= MOST_CASES) {
+        return Ok(());
+    }
+    let longest = lists.iter().max_by_key(|(_, length)| *length);
+    let key = longest.map_or("impact.velocities", |(key, _)| key);
+    let allowed = format!("must be shorter: all lists together make more than {MOST_CASES} cases");
+    Err(document.reject(key, allowed))
 }
 
 /// All entries of a list, which must be there and positive.
@@ -377,5 +418,23 @@ tolerance = 0.02
         let text = TEXT.replace("[20, 40]", "[20, 0.5]");
         let error = Study::from_document(&Document::new(Path::new("s.toml"), text)).unwrap_err();
         assert!(error.to_string().contains("young_over_yield[1]"), "{error}");
+    }
+
+    #[test]
+    fn speeds_no_material_has_and_grids_without_end_are_refused_by_their_key() {
+        let read = |text: String| {
+            let study = Study::from_document(&Document::new(Path::new("s.toml"), text));
+            study.unwrap_err().to_string()
+        };
+        for speed in ["1e200 m/s", "2000 m/s"] {
+            let error = read(TEXT.replace("20 m/s", speed));
+            assert!(error.contains("`impact.velocities[1]`"), "{error}");
+        }
+        let many = vec!["\"1 m/s\""; 30_000].join(", ");
+        let error = read(TEXT.replace("\"20 m/s\"", &many));
+        assert!(
+            error.contains("`impact.velocities`") && error.contains("100000 cases"),
+            "{error}"
+        );
     }
 }

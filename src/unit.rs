@@ -53,7 +53,7 @@ macro_rules! dimensions {
 }
 
 /// What a [`Dimension`] states, as a value.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy)]
 pub struct Units {
     /// [`Dimension::NAME`].
     pub name: &'static str,
@@ -61,7 +61,18 @@ pub struct Units {
     pub example: &'static str,
     /// [`Dimension::UNITS`].
     pub units: &'static [&'static str],
+    /// [`parse()`].
+    pub parse: fn(&str) -> std::result::Result<f64, UnitError>,
 }
+
+/// The parser follows from the rest.
+impl PartialEq for Units {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
+}
+
+impl Eq for Units {}
 
 impl Units {
     /// What `D` states.
@@ -71,6 +82,7 @@ impl Units {
             name: D::NAME,
             example: D::EXAMPLE,
             units: D::UNITS,
+            parse: parse::<D>,
         }
     }
 
@@ -155,9 +167,13 @@ pub fn parse<D: Dimension>(text: &str) -> std::result::Result<f64, UnitError> {
             let ours = D::OURS
                 .iter()
                 .find(|(spelling, _)| *spelling == plain(unit));
-            match ours {
+            let in_si = |number: &str| match ours {
                 Some((_, factor)) => number.parse::<f64>().ok().map(|number| number * factor),
                 None => D::si(&format!("{number} {}", uom_spelling(unit))),
+            };
+            match in_si("1").and_then(power_of_ten) {
+                Some(power) => shifted(number, power),
+                None => in_si(number),
             }
         })
         .filter(|value| value.is_finite())
@@ -175,13 +191,31 @@ pub fn parse<D: Dimension>(text: &str) -> std::result::Result<f64, UnitError> {
 /// SI value of a command-line argument.
 ///
 /// # Errors
-/// [`Error::Argument`] naming `argument`, as for [`parse`].
+/// [`Error::Refused`] naming `argument`, as for [`parse`].
 pub fn argument<D: Dimension>(argument: &str, text: &str) -> Result<f64> {
-    parse::<D>(text).map_err(|UnitError { found, allowed }| Error::Argument {
-        argument: argument.to_owned(),
+    parse::<D>(text).map_err(|UnitError { found, allowed }| Error::Refused {
+        what: argument.to_owned(),
         found,
         allowed,
     })
+}
+
+/// k where `factor` is the number nearest to $10^k$.
+fn power_of_ten(factor: f64) -> Option<i32> {
+    let power = factor.log10().round();
+    let nearest: f64 = format!("1e{power}").parse().ok()?;
+    (factor == nearest).then_some(power as i32)
+}
+
+/// The number nearest to `number` times $10^k$: 5 um is 5e-6, which 5 times the number nearest to 1e-6 is not.
+fn shifted(number: &str, power: i32) -> Option<f64> {
+    let (mantissa, exponent) = match number.split_once(['e', 'E']) {
+        Some((mantissa, exponent)) => (mantissa, exponent.parse::<i64>().ok()?),
+        None => (number, 0),
+    };
+    format!("{mantissa}e{}", exponent.saturating_add(power.into()))
+        .parse()
+        .ok()
 }
 
 /// Number and unit of "250 um" or "0.5mm"; `None` when the text does not begin with a number that a unit follows.
@@ -320,6 +354,30 @@ mod tests {
         assert_eq!(parse::<Force>("2 uN").unwrap(), 2e-6);
         assert_eq!(parse::<Mass>("1 g").unwrap(), 1e-3);
         assert_eq!(parse::<Velocity>("-5 mm/s").unwrap(), -5e-3);
+    }
+
+    #[test]
+    fn decimals_stay_what_they_are_in_another_unit() {
+        for (text, si) in [
+            ("5 um", 5e-6),
+            ("0.7 um", 0.7e-6),
+            ("1.1e1 um", 11e-6),
+            ("3 micron", 3e-6),
+            ("-2.3E-2 mm", -2.3e-5),
+            ("9 km", 9e3),
+        ] {
+            assert_eq!(parse::<Length>(text), Ok(si), "{text}");
+        }
+        assert_eq!(parse::<Pressure>("59.82 GPa"), Ok(59.82e9));
+        assert_eq!(parse::<Pressure>("0.3 N/mm2"), Ok(0.3e6));
+        assert_eq!(parse::<Density>("7.3 g/cc"), Ok(7.3e3));
+        assert_eq!(parse::<Mass>("0.7 mg"), Ok(0.7e-6));
+        // units that are no power of ten are multiplied as before
+        assert_eq!(parse::<Length>("2 in"), Ok(0.0508));
+        for text in ["1e999999999999999999999 um", "1e9223372036854775807 um"] {
+            assert!(parse::<Length>(text).is_err(), "{text}");
+        }
+        assert_eq!(parse::<Length>("1e-9223372036854775807 um"), Ok(0.0));
     }
 
     #[test]

@@ -116,12 +116,12 @@ pub(super) fn check(
 /// The same for a speed of the command line; one that the file's own speeds were allowed to be is allowed here.
 ///
 /// # Errors
-/// [`Error::Argument`].
+/// [`Error::Refused`].
 pub(super) fn check_argument(case: &Case, velocity: f64, text: &str) -> Result<()> {
     let slip = |v: f64| velocity_slip(&case.material, v);
     match slip(velocity) {
-        Some(why) if case.velocities.iter().all(|v| slip(*v).is_none()) => Err(Error::Argument {
-            argument: "--velocity".to_owned(),
+        Some(why) if case.velocities.iter().all(|v| slip(*v).is_none()) => Err(Error::Refused {
+            what: "--velocity".to_owned(),
             found: format!("\"{text}\""),
             allowed: format!(
                 "check the unit: {why}; if it is meant, give it in the case file, beside `unusual = [\"{VELOCITIES}\"]`"

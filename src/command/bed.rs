@@ -4,16 +4,16 @@ use super::bed_export::BedExportArgs;
 use super::impact::interval;
 use super::{Command, Context, Verdict, on_a_worker, output_folder};
 use crate::bed::measures::gauge::Finding;
-use crate::bed::measures::series::CLOSURE;
+use crate::bed::measures::series::{CLOSURE, Row};
 use crate::bed::run::{BedReport, Options, run_scene};
 use crate::bed::scene::{Scene, Stage};
 use crate::law::LawFile;
 use crate::unit::{engineering, significant};
 use crate::{Error, Result};
 use clap::{Args, Subcommand};
-use indicatif::ProgressBar;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 /// Run a granular bed from a scene file.
@@ -107,13 +107,17 @@ pub fn simulate(
 ) -> Result<BedReport> {
     let bar = context.progress(rows_expected(scene), "bed");
     let provenance = context.provenance(&scene.hash);
+    let told = Told::default();
     let report = on_a_worker(|| {
         let options = Options {
             folder,
             provenance: &provenance,
             seed,
             checkpoint: Some(interval),
-            progress: &|_, _| advance(&bar),
+            progress: &|what, row| {
+                bar.inc(1);
+                told.row(what, row);
+            },
         };
         run_scene(scene, law, &options)
     })?;
@@ -121,8 +125,32 @@ pub fn simulate(
     Ok(report)
 }
 
-fn advance(bar: &ProgressBar) {
-    bar.inc(1);
+/// Rows between two that `-v` tells of within a stage.
+const TOLD_EVERY: usize = 20;
+
+/// What `-v` has told of: the run and the stage under way, and the rows since.
+#[derive(Default)]
+struct Told(Mutex<(String, usize)>);
+
+impl Told {
+    /// Tells of the first row of each stage and of one in [`TOLD_EVERY`].
+    fn row(&self, what: &str, row: &Row) {
+        let stage = format!("{what}, {}", row.stage);
+        // a thread that fell while telling takes nothing with it that matters
+        let mut last = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if last.0 != stage {
+            *last = (stage, 0);
+        }
+        if last.1.is_multiple_of(TOLD_EVERY) {
+            tracing::info!(
+                "{}: row {} at {}",
+                last.0,
+                last.1 + 1,
+                engineering(row.time_s, "s", 3)
+            );
+        }
+        last.1 += 1;
+    }
 }
 
 /// Rows a scene writes, about: for the progress bar.

@@ -6,7 +6,7 @@ use crate::cost::accuracy;
 use crate::cost::thesis::{self, Comparison};
 use crate::cost::{Effort, Finished, Footprint, Pulse, Row, Rung, Summary, mark_front, rungs};
 use crate::curve::{Impact, Status};
-use crate::files::{write_atomic, write_rows};
+use crate::files::{Sum, sum_of, with_sum, write_atomic, write_rows};
 use crate::impact::simulate;
 use crate::plan::severity;
 use crate::report::chart::{Chart, Mark, Series};
@@ -56,7 +56,8 @@ impl Command for CostArgs {
     fn run(&self, context: &Context) -> Result<Verdict> {
         let case = Case::read(&self.case)?.with_velocities(&self.velocity)?;
         let longest = unit::argument::<Time>("--longest", &self.longest)?;
-        let out = output_folder(self.out.as_deref(), &case.name)?.join("cost");
+        let claim = output_folder(self.out.as_deref(), &case.name)?;
+        let out = claim.join("cost");
         let speeds = match self.velocity.is_empty() {
             true => &case.velocities[case.velocities.len() - 1..],
             false => &case.velocities[..],
@@ -127,6 +128,12 @@ impl Job<'_> {
                 continue;
             }
             let done = self.finished(rung)?;
+            tracing::info!(
+                "{}: {} in {:.1} s",
+                rung.ladder,
+                rung.name,
+                done.impact.summary.wall_s
+            );
             rows.push(Row::new(rung, &done, &pulse, hertz.as_ref()));
             pulses.push(Pulse::of(&done.impact));
         }
@@ -179,8 +186,8 @@ impl Job<'_> {
             },
         };
         let path = folder.join("footprint.json");
-        let text =
-            serde_json::to_string(&footprint).map_err(|e| Error::file("write", &path)(e.into()))?;
+        let text = with_sum(&footprint, b"");
+        let text = text.map_err(|e| Error::file("write", &path)(e.into()))?;
         // the summary comes last: it says that all is there
         write_atomic(&path, text.as_bytes())?;
         done.impact.write(&folder, &self.provenance)?;
@@ -213,6 +220,11 @@ impl Job<'_> {
 fn kept(folder: &Path) -> Result<Finished> {
     let path = folder.join("footprint.json");
     let text = std::fs::read_to_string(&path).map_err(Error::file("read", &path))?;
+    if sum_of(&text, b"") == Sum::Differs {
+        let damaged = "it is damaged; remove its folder to make the run again";
+        let damaged = std::io::Error::new(std::io::ErrorKind::InvalidData, damaged);
+        return Err(Error::file("use", &path)(damaged));
+    }
     let footprint =
         serde_json::from_str(&text).map_err(|e| Error::file("read", &path)(e.into()))?;
     Ok(Finished {

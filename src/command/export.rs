@@ -60,7 +60,7 @@ impl Command for ExportArgs {
         if !targets.is_empty() {
             let folder = output_folder(self.out.as_deref(), &law.name)?;
             let folder = match self.out {
-                Some(_) => folder,
+                Some(_) => folder.to_path_buf(),
                 None => folder.join("export"),
             };
             let mut said = String::new();

@@ -14,9 +14,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// How often a run saves a checkpoint unless told otherwise.
-pub const CHECKPOINT: Duration = Duration::from_secs(30);
-/// The file it is kept in, beside the results to come; gone when they are there.
+/// The file a run under way is kept in, beside the results to come; gone when they are there.
 pub const CHECKPOINT_FILE: &str = "checkpoint.bin";
 
 /// Simulate the impacts of a case: `curve.csv` and `summary.json` for each speed.

@@ -23,6 +23,7 @@ pub mod study;
 pub mod theory;
 pub mod units;
 
+use crate::files::Claim;
 use crate::{Error, Result};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::Write;
@@ -181,16 +182,16 @@ fn quoted(word: &str) -> String {
     }
 }
 
-/// Output folder: the one given, else `out/<name>`; made sure to be writable before any work starts.
+/// Output folder: the one given, else `out/<name>`; made sure to be writable, by no other process, before any work starts.
 ///
-/// Nothing is left behind: the check writes a temporary file into the nearest folder that exists.
+/// Nothing is left behind when the verb refuses to work.
 ///
 /// # Errors
-/// [`Error::File`] when files cannot be created there.
-pub fn output_folder(given: Option<&Path>, name: &str) -> Result<PathBuf> {
+/// [`Error::File`] when files cannot be created there or another process writes there, and as [`check_writable`].
+pub fn output_folder(given: Option<&Path>, name: &str) -> Result<Claim> {
     let folder = given.map_or_else(|| Path::new("out").join(name), Path::to_owned);
     check_writable(&folder)?;
-    Ok(folder)
+    Claim::new(&folder)
 }
 
 /// That files can be created in `folder`, which need not exist yet.

@@ -16,7 +16,7 @@ use crate::report::RunPage;
 use crate::{PROGRAM, Result};
 use clap::Args;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// What the stages have made, for the report.
 struct Results {
@@ -43,6 +43,9 @@ pub struct RunArgs {
     /// Random seed (bed insertion), overriding the scene's.
     #[arg(long)]
     pub seed: Option<u64>,
+    /// How often a run saves a checkpoint, from which the same command resumes after an interruption.
+    #[arg(long, default_value = "30 s")]
+    pub checkpoint: String,
 }
 
 impl Command for RunArgs {
@@ -60,6 +63,7 @@ impl Command for RunArgs {
         let document = Document::read(&self.case)?;
         let case = Case::from_document(&document)?;
         super::fit::check_normal(&case)?;
+        let interval = impact::interval(&self.checkpoint)?;
         let scene = case
             .bed
             .as_deref()
@@ -68,7 +72,7 @@ impl Command for RunArgs {
             .transpose()?;
         let out = output_folder(self.out.as_deref(), &case.name)?;
         super::fit::check_target(&out.join("law.toml"), &case)?;
-        let results = stages(&case, scene, &out, self.seed, context)?;
+        let results = stages(&case, scene, &out, (self.seed, interval), context)?;
         let page = report(&document, &case, &results, &out, context, started)?;
         let worst = 100.0 * results.law.worst_error();
         context.say(&format!(
@@ -86,12 +90,12 @@ fn stages(
     case: &Case,
     scene: Option<Scene>,
     out: &Path,
-    seed: Option<u64>,
+    (seed, interval): (Option<u64>, Duration),
     context: &Context,
 ) -> Result<Results> {
     let provenance = context.provenance(&case.hash);
     let plans = plans(case)?;
-    let simulated = impact::impacts(case, out, impact::CHECKPOINT, context)?;
+    let simulated = impact::impacts(case, out, interval, context)?;
     let impacts: Vec<Impact> = simulated.iter().map(|one| one.impact.clone()).collect();
     let (simulated, unfinished): (Vec<_>, Vec<_>) = simulated
         .into_iter()
@@ -105,7 +109,7 @@ fn stages(
     compare::write(&comparison, out, &provenance)?;
     let bed = scene
         .map(|scene| {
-            bed::simulate(&scene, Some(&law), out, seed, impact::CHECKPOINT, context)
+            bed::simulate(&scene, Some(&law), out, seed, interval, context)
                 .map(|report| (scene, report))
         })
         .transpose()?;

@@ -1,23 +1,24 @@
 //! Study command: runs a grid of cases in parallel, equal dimensionless groups once, and resumes where it was stopped.
 
-use super::impact::{CHECKPOINT, CHECKPOINT_FILE};
+use super::impact::{CHECKPOINT_FILE, interval};
 use super::show;
-use super::{Command, Context, Verdict, output_folder, print};
+use super::{Command, Context, Verdict, output_folder};
 use crate::case::Case;
-use crate::curve::{Impact, Status, Summary};
-use crate::files::{write_atomic, write_rows};
+use crate::curve::{Status, Summary};
+use crate::files::{rows_text, write_atomic, write_rows};
 use crate::impact::{simulate, simulate_kept};
-use crate::material::ReferenceUnits;
-use crate::material::flow::{InSi, Spelling};
-use crate::plan::{plan, severity, with_cells};
-use crate::study::{Study, drawn, group, scaled};
+use crate::material::flow::{FlowConstants, InSi, Spelling};
+use crate::material::{Flow, ReferenceUnits};
+use crate::plan::{plan, plans, severity, with_cells};
+use crate::study::{KeptRun, Study, drawn, group, scaled};
 use crate::tape::Checkpoint;
-use crate::{Error, PROGRAM, Result};
+use crate::{Error, Result};
 use clap::Args;
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 /// Figures of every group by its name, with the number of the case that stands for it.
 type Runs = BTreeMap<String, (usize, Summary)>;
@@ -34,6 +35,9 @@ pub struct StudyArgs {
     /// the tolerance.
     #[arg(long, default_value_t = 0)]
     pub refine: usize,
+    /// How often a run saves a checkpoint, from which the same command resumes after an interruption.
+    #[arg(long, default_value = "30 s")]
+    pub checkpoint: String,
 }
 
 impl Command for StudyArgs {
@@ -48,8 +52,13 @@ impl Command for StudyArgs {
     /// Those of reading the study and of writing the results.
     fn run(&self, context: &Context) -> Result<Verdict> {
         let study = Study::read(&self.study)?;
+        study
+            .cases
+            .iter()
+            .try_for_each(|case| plans(case).map(drop))?;
+        let interval = interval(&self.checkpoint)?;
         let out = output_folder(self.out.as_deref(), &study.name)?;
-        let runs = runs(&study, &out, context)?;
+        let runs = runs(&study, &out, interval, context)?;
         let rows: Vec<(usize, Summary)> = study
             .cases
             .iter()
@@ -62,12 +71,12 @@ impl Command for StudyArgs {
         let path = out.join("results.csv");
         write_atomic(
             &path,
-            table(&study, &rows, &context.provenance(&study.hash), &path)?.as_bytes(),
+            &table(&study, &rows, &context.provenance(&study.hash), &path)?,
         )?;
         let overview = show::study::overview(runs.values().map(|(i, s)| (&study.cases[*i], s)));
         write_atomic(&out.join("study.md"), overview.as_bytes())?;
         let ok = rows.iter().filter(|(_, s)| s.status == Status::Ok).count();
-        print(&format!(
+        context.say(&format!(
             "{} cases, {} runs, {ok} with status ok -> {}\n",
             rows.len(),
             runs.len(),
@@ -126,7 +135,7 @@ fn refinement(
     write_rows(&path, &context.provenance(&study.hash), &rows)?;
     let met = rows.iter().filter(|r| r.met).count();
     let relative = rows.iter().filter(|r| r.met_relatively).count();
-    print(&format!(
+    context.say(&format!(
         "{met} of {} runs change by less than the tolerance with cells of half the size ({relative} with e relative to \
          itself) -> {}\n",
         rows.len(),
@@ -196,63 +205,13 @@ fn severity_of(case: &Case) -> f64 {
     severity(&case.material, case.velocities[0])
 }
 
-/// What a finished run in a study's folder is: its group, the program that made it, and the units of its figures.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct KeptRun {
-    program: String,
-    group: String,
-    radius_m: f64,
-    density_kg_m3: f64,
-    #[serde(rename = "young_modulus_Pa")]
-    young_modulus_pa: f64,
-}
-
-impl KeptRun {
-    /// Its file, written last: where it stands the others are whole.
-    const FILE: &str = "run.json";
-
-    fn of(case: &Case, group: &str) -> Self {
-        let units = units(case);
-        KeptRun {
-            program: PROGRAM.to_owned(),
-            group: group.to_owned(),
-            radius_m: units.length,
-            density_kg_m3: units.density,
-            young_modulus_pa: units.stress,
-        }
-    }
-
-    /// The finished run of a group in `folder`; none where there is nothing, or something of another program.
-    fn find(folder: &Path, group: &str) -> Option<Self> {
-        let bytes = std::fs::read(folder.join(Self::FILE)).ok()?;
-        let kept: KeptRun = serde_json::from_slice(&bytes).ok()?;
-        (kept.program == PROGRAM && kept.group == group).then_some(kept)
-    }
-
-    fn write(&self, folder: &Path) -> Result<()> {
-        let path = folder.join(Self::FILE);
-        let text = serde_json::to_string_pretty(self);
-        let text = text.map_err(|e| Error::file("write", &path)(e.into()))?;
-        write_atomic(&path, format!("{text}\n").as_bytes())
-    }
-
-    fn units(&self) -> ReferenceUnits {
-        ReferenceUnits {
-            length: self.radius_m,
-            density: self.density_kg_m3,
-            stress: self.young_modulus_pa,
-        }
-    }
-}
-
 /// Units of the figures of a case.
 fn units(case: &Case) -> ReferenceUnits {
     ReferenceUnits::of(&case.material, case.radius)
 }
 
 /// Figures of every group, by its name, with the number of the case that stands for it; finished ones are read.
-fn runs(study: &Study, out: &Path, context: &Context) -> Result<Runs> {
+fn runs(study: &Study, out: &Path, interval: Duration, context: &Context) -> Result<Runs> {
     let mut groups: BTreeMap<String, usize> = BTreeMap::new();
     for (i, case) in study.cases.iter().enumerate() {
         groups.entry(group(case)).or_insert(i);
@@ -276,15 +235,23 @@ fn runs(study: &Study, out: &Path, context: &Context) -> Result<Runs> {
         .map(|&(_, name, i)| {
             let folder: PathBuf = out.join("runs").join(name);
             let case = &study.cases[i];
-            let summary = if let Some(kept) = KeptRun::find(&folder, name) {
-                scaled(&Impact::read(&folder)?.summary, &kept.units(), case)
+            let summary = if let Some(kept) = KeptRun::figures(&folder, name, case) {
+                tracing::info!("{name}: kept");
+                kept
             } else {
                 let plan = plan(case, case.velocities[0]);
-                let checkpoint = Checkpoint::new(&folder.join(CHECKPOINT_FILE), CHECKPOINT);
+                let checkpoint = Checkpoint::new(&folder.join(CHECKPOINT_FILE), interval);
                 let simulated = simulate_kept(&case.material, case.radius, &plan, &checkpoint);
                 simulated.impact.write(&folder, &provenance)?;
                 KeptRun::of(case, name).write(&folder)?;
-                simulated.impact.summary
+                let summary = simulated.impact.summary;
+                tracing::info!(
+                    "{name}: {} steps in {:.1} s (predicted {:.1} s)",
+                    summary.steps,
+                    summary.wall_s,
+                    plan.seconds
+                );
+                summary
             };
             bar.inc(1);
             Ok((name.clone(), (i, summary)))
@@ -294,48 +261,54 @@ fn runs(study: &Study, out: &Path, context: &Context) -> Result<Runs> {
     done
 }
 
+/// A cell of `results.csv`.
+#[derive(Debug, Serialize)]
+#[serde(untagged)]
+enum Cell {
+    Number(f64),
+    Count(u64),
+    Text(String),
+}
+
 /// `results.csv`: the case, then every key of `summary.json`, one row a case.
 fn table(
     study: &Study,
     rows: &[(usize, Summary)],
     provenance: &str,
     path: &Path,
-) -> Result<String> {
-    let mut text = format!("# {provenance}\n");
-    for (k, (i, summary)) in rows.iter().enumerate() {
-        let case = &study.cases[*i];
-        let m = &case.material;
-        let flow = m.flow.map_or_else(Vec::new, |flow| flow.constants());
-        let figures = figures(summary).map_err(|e| Error::file("write", path)(e.into()))?;
-        if k == 0 {
-            let keys: Vec<&str> = figures.iter().map(|(key, _)| key.as_str()).collect();
-            let names = flow.iter().map(|(c, _)| InSi::key(c) + ",");
-            text += &format!(
-                "density_kg_m3,young_modulus_Pa,{}poisson_ratio,radius_m,{}\n",
-                names.collect::<String>(),
-                keys.join(",")
-            );
-        }
-        let values: Vec<&str> = figures.iter().map(|(_, value)| value.as_str()).collect();
-        text += &format!(
-            "{},{},{}{},{},{}\n",
-            m.density,
-            m.young_modulus,
-            flow.iter()
-                .map(|(_, value)| format!("{value},"))
-                .collect::<String>(),
-            m.poisson_ratio,
-            case.radius,
-            values.join(",")
-        );
+) -> Result<Vec<u8>> {
+    let mut keys = Vec::new();
+    let mut cells: Vec<Vec<Cell>> = Vec::new();
+    for (i, summary) in rows {
+        let row = row(&study.cases[*i], summary);
+        let row = row.map_err(|e| Error::file("write", path)(e.into()))?;
+        let (names, values): (Vec<String>, Vec<Cell>) = row.into_iter().unzip();
+        keys = names;
+        cells.push(values);
     }
-    Ok(text)
+    let header = keys.into_iter().map(Cell::Text).collect();
+    cells.insert(0, header);
+    rows_text(provenance, &cells).map_err(Error::file("write", path))
 }
 
-/// Keys and values of `summary.json` in its order (`velocity_m_s` first), but for `particle` and `warnings`; the status as one word, its reason after a colon.
-fn figures(summary: &Summary) -> std::result::Result<Vec<(String, String)>, serde_json::Error> {
+/// Keys and values of a case and of every figure of its run in the order of `summary.json` (`velocity_m_s` first), but for
+/// `particle` and `warnings`; the status as one word, its reason after a colon.
+fn row(case: &Case, summary: &Summary) -> serde_json::Result<Vec<(String, Cell)>> {
+    let m = &case.material;
+    let flow = FlowConstants::<InSi>::of(m.flow.as_ref());
+    let mut row = vec![
+        ("density_kg_m3".to_owned(), Cell::Number(m.density)),
+        ("young_modulus_Pa".to_owned(), Cell::Number(m.young_modulus)),
+    ];
+    // of every kind: the cases of a study may differ in theirs
+    row.extend(Flow::all_constants().iter().map(|constant| {
+        let value = flow.value(constant).unwrap_or(f64::NAN);
+        (InSi::key(constant), Cell::Number(value))
+    }));
+    row.push(("poisson_ratio".to_owned(), Cell::Number(m.poisson_ratio)));
+    row.push(("radius_m".to_owned(), Cell::Number(case.radius)));
     let text = serde_json::to_string_pretty(summary)?;
-    let value: serde_json::Value = serde_json::from_str(&text)?;
+    let value = serde_json::to_value(summary)?;
     let keys = text.lines().filter_map(|line| {
         line.strip_prefix("  \"")?
             .split_once("\":")
@@ -343,22 +316,25 @@ fn figures(summary: &Summary) -> std::result::Result<Vec<(String, String)>, serd
             // neither is a figure; whose impact it is, the case's own columns say
             .filter(|key| !["particle", "warnings"].contains(key))
     });
-    Ok(keys
-        .map(|key| {
-            let cell = match &value[key] {
-                serde_json::Value::String(word) => word.clone(),
-                serde_json::Value::Object(map) => map
-                    .iter()
-                    .map(|(word, why)| {
-                        format!(
-                            "\"{word}: {}\"",
-                            why.as_str().unwrap_or_default().replace('"', "'")
-                        )
-                    })
-                    .collect(),
-                other => other.to_string(),
-            };
-            (key.to_owned(), cell)
-        })
-        .collect())
+    row.extend(keys.map(|key| (key.to_owned(), cell(&value[key]))));
+    Ok(row)
+}
+
+/// A value of `summary.json`; numbers are written as in every CSV file.
+fn cell(value: &serde_json::Value) -> Cell {
+    match value {
+        serde_json::Value::Null => Cell::Number(f64::NAN),
+        serde_json::Value::Number(number) => match number.as_u64() {
+            Some(count) => Cell::Count(count),
+            None => Cell::Number(number.as_f64().unwrap_or(f64::NAN)),
+        },
+        serde_json::Value::String(word) => Cell::Text(word.clone()),
+        serde_json::Value::Object(map) => {
+            let texts = map
+                .iter()
+                .map(|(word, why)| format!("{word}: {}", why.as_str().unwrap_or_default()));
+            Cell::Text(texts.collect())
+        }
+        other => Cell::Text(other.to_string()),
+    }
 }

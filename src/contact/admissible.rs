@@ -39,8 +39,8 @@ impl Inadmissible {
 
 impl From<Inadmissible> for Error {
     fn from(e: Inadmissible) -> Self {
-        Error::Argument {
-            argument: e.key,
+        Error::Refused {
+            what: e.key,
             found: e.found.to_string(),
             allowed: e.allowed.to_string(),
         }

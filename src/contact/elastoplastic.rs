@@ -62,9 +62,9 @@ pub struct Memory {
 keep_fields!(Memory: flattening, force, residual, exponent);
 
 /// Largest flattening $\delta/R$ at which a branch is asked for; a body ends there.
-const DEEPEST: f64 = 2.0;
-/// Recovered part $1 - \rho$ of a branch below which it is lost in rounding.
-const LEAST_RECOVERY: f64 = 1e-12;
+pub(super) const DEEPEST: f64 = 2.0;
+/// Recovered part $1 - \rho$ of the deepest branch, and residual part $\rho$, below which it is lost in rounding.
+const LEAST_PART: f64 = 1e-12;
 
 /// Rounding allowed when the bound of the loading exponent is compared with that of unloading.
 const EXPONENT_ROUNDING: f64 = 1e-9;
@@ -101,11 +101,18 @@ impl<L: Loading> Elastoplastic<L> {
         }
         let deepest = DEEPEST / units.flattening;
         let (rho, _) = unloading.branch(deepest, loading.departure(), units.flattening);
+        let scale = "unloading.residual_scale";
         Inadmissible::unless(
-            1.0 - rho >= LEAST_RECOVERY,
-            "residual ratio",
-            rho,
-            "must stay below 1 - 1e-12 up to a flattening of 2 R: nothing would be left to unload",
+            1.0 - rho >= LEAST_PART,
+            scale,
+            unloading.constants()[0],
+            "must be larger, or `residual_power` smaller: after a flattening of 2 R nothing would be left to unload",
+        )?;
+        Inadmissible::unless(
+            deepest <= loading.departure() || rho >= LEAST_PART,
+            scale,
+            unloading.constants()[0],
+            "must be smaller, or `residual_power` larger: after a flattening of 2 R no residual would be left of what has yielded",
         )?;
         Ok(Elastoplastic {
             loading,
@@ -170,6 +177,13 @@ impl<L: Loading> Elastoplastic<L> {
         self.unloaded(memory).residual
     }
 
+    /// Is the contact still in Hertz's range? Not told by its residual, which rounding may make 0 past the departure: then the
+    /// way back is below the loading curve all the same, and Hertz's curve is above it.
+    #[inline]
+    fn is_elastic(&self, memory: &Memory) -> bool {
+        memory.flattening <= self.loading.departure() * self.units.flattening
+    }
+
     /// Memory with the constants of its branch.
     #[inline]
     fn unloaded(&self, memory: &Memory) -> Memory {
@@ -182,14 +196,6 @@ impl<L: Loading> Elastoplastic<L> {
             exponent,
             ..*memory
         }
-    }
-}
-
-impl Memory {
-    /// Is the contact still in Hertz's range? The branch must be known.
-    #[inline]
-    fn elastic(&self) -> bool {
-        self.residual == 0.0
     }
 }
 
@@ -208,7 +214,7 @@ impl<L: Loading> NormalLaw for Elastoplastic<L> {
         if x <= history.residual {
             return 0.0;
         }
-        if history.elastic() {
+        if self.is_elastic(history) {
             return self.units.force * super::loading::hertz(x / self.units.flattening);
         }
         let span = history.flattening - history.residual;
@@ -227,7 +233,7 @@ impl<L: Loading> NormalLaw for Elastoplastic<L> {
         if x <= history.residual {
             return 0.0;
         }
-        if history.elastic() {
+        if self.is_elastic(&history) {
             return loading();
         }
         let span = history.flattening - history.residual;
@@ -293,7 +299,7 @@ impl<L: Loading> NormalLaw for Elastoplastic<L> {
 
     fn dissipated(&self, history: &Memory) -> f64 {
         let branch = self.unloaded(history);
-        if branch.elastic() {
+        if self.is_elastic(&branch) {
             return 0.0;
         }
         let work = self.loading.work(branch.flattening / self.units.flattening);

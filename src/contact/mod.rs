@@ -9,6 +9,7 @@
 
 pub mod admissible;
 pub mod elastoplastic;
+pub mod guarantees;
 pub mod inertia;
 pub mod loading;
 pub mod pair;

@@ -56,7 +56,7 @@ macro_rules! targets {
             /// The files of this target.
             ///
             /// # Errors
-            /// [`Error::Argument`] when the target cannot express the law.
+            /// [`Error::Refused`] when the target cannot express the law.
             pub fn export(self, law: &Portable) -> Result<Vec<Artifact>> {
                 match self {
                     $(Target::$target => <$dialect>::export(law),)+

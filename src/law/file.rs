@@ -8,6 +8,7 @@ use super::FittedLaw;
 pub use super::table::*;
 use crate::contact::admissible::Inadmissible;
 use crate::contact::elastoplastic::{ClosedForm, Elastoplastic, Spline, YieldUnits};
+use crate::contact::guarantees;
 use crate::contact::loading::{Loading, SoftenedHertz};
 use crate::contact::spline::{Knot, SplineLoading};
 use crate::contact::unloading::Unloading;
@@ -295,7 +296,7 @@ impl LawFile {
     /// The law in the form the file names.
     ///
     /// # Errors
-    /// [`Error::Argument`] when the file lacks that form or its constants are not admissible; never for a
+    /// [`Error::Refused`] when the file lacks that form or its constants are not admissible; never for a
     /// file that was read.
     pub fn law(&self) -> Result<FittedLaw> {
         self.law_in(self.form)
@@ -307,8 +308,8 @@ impl LawFile {
     /// As [`LawFile::law`].
     pub fn law_in(&self, form: Form) -> Result<FittedLaw> {
         self.build(form)
-            .map_err(|Refusal(key, why)| Error::Argument {
-                argument: format!("{}: {key}", self.name),
+            .map_err(|Refusal(key, why)| Error::Refused {
+                what: format!("{}: {key}", self.name),
                 found: why.found.to_string(),
                 allowed: why.allowed.to_owned(),
             })
@@ -332,7 +333,7 @@ impl LawFile {
             .map_err(at("closed_form"))?;
         let unloading = build_unloading(&table.unloading).map_err(at("closed_form.unloading"))?;
         let law = self.assemble(loading, unloading);
-        let law = law.map_err(|e| Refusal("closed_form".to_owned(), e))?;
+        let law = law.map_err(|e| Refusal(of_form("closed_form", "closed_form", &e), e))?;
         self.with_inertia(law, table.inertia)
             .map_err(at("closed_form"))
     }
@@ -356,7 +357,7 @@ impl LawFile {
         let unloading = build_unloading(&table.unloading)
             .map_err(|e| Refusal(format!("spline.unloading.{}", e.key), e))?;
         let law = self.assemble(loading, unloading);
-        let law = law.map_err(|e| Refusal("spline.knots".to_owned(), e))?;
+        let law = law.map_err(|e| Refusal(of_form("spline", "spline.knots", &e), e))?;
         self.with_inertia(law, table.inertia)
             .map_err(|e| Refusal(format!("spline.{}", e.key), e))
     }
@@ -381,12 +382,18 @@ impl LawFile {
             (y.displacement_over_radius, y.force_over_radius2_pa)
         });
         let units = YieldUnits { flattening, force };
-        Elastoplastic::new(
-            loading,
-            unloading,
-            units,
-            self.valid.displacement_over_radius_max,
-        )
+        let valid_to = self.valid.displacement_over_radius_max;
+        let law = Elastoplastic::new(loading, unloading, units, valid_to)?;
+        guarantees::check(&law)?;
+        Ok(law)
+    }
+}
+
+/// Key of what an assembled law of `form` refuses: that of the constant it names, or `whole`.
+fn of_form(form: &str, whole: &str, why: &Inadmissible) -> String {
+    match why.key.starts_with("unloading.") {
+        true => format!("{form}.{}", why.key),
+        false => whole.to_owned(),
     }
 }
 

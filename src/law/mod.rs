@@ -77,7 +77,7 @@ impl AnyLaw {
     /// Run `visitor` with the concrete law.
     ///
     /// # Errors
-    /// [`Error::Argument`] when a theory needs a yield strength and the material has none.
+    /// [`Error::Refused`] when a theory needs a yield strength and the material has none.
     pub fn visit<V: LawVisitor>(&self, visitor: V) -> Result<V::Output> {
         match self {
             AnyLaw::Fitted(law) => Ok(law.visit(visitor)),
@@ -88,13 +88,13 @@ impl AnyLaw {
     /// Law called `name`: `fitted` is that of `file`, any other name a theory of `material`.
     ///
     /// # Errors
-    /// [`Error::Argument`] for an unknown name, or `fitted` without a law file.
+    /// [`Error::Refused`] for an unknown name, or `fitted` without a law file.
     pub fn named(name: &str, file: Option<&LawFile>, material: &Material) -> Result<Self> {
         if name != "fitted" {
             return Ok(AnyLaw::Theory(name.parse()?, *material));
         }
-        let file = file.ok_or_else(|| Error::Argument {
-            argument: "law".to_owned(),
+        let file = file.ok_or_else(|| Error::Refused {
+            what: "law".to_owned(),
             found: "`fitted`".to_owned(),
             allowed: "needs a law file, e.g. `--law law.toml`".to_owned(),
         })?;

@@ -134,12 +134,12 @@ pub fn least_tolerance(case: &Case, velocity: f64) -> f64 {
 /// Plans of all speeds of a case, slowest first.
 ///
 /// # Errors
-/// [`Error::Argument`] for a tolerance below the least one that is met, or a run that needs more memory or time than there is
+/// [`Error::Refused`] for a tolerance below the least one that is met, or a run that needs more memory or time than there is
 /// sense in.
 pub fn plans(case: &Case) -> Result<Vec<Plan>> {
     let refuse = |key: &str, found: String, allowed: String| {
-        Err(Error::Argument {
-            argument: format!("{}: `{key}`", case.path.display()),
+        Err(Error::Refused {
+            what: format!("{}: `{key}`", case.path.display()),
             found,
             allowed,
         })

@@ -187,8 +187,8 @@ impl<'a> Keeper<'a> {
     }
 }
 
-/// A file of `version` with what `fill` writes, under its sum.
-fn sealed(version: u64, fill: impl FnOnce(&mut Tape)) -> Tape {
+/// A kept file of `version` with what `fill` writes, under its sum.
+pub fn sealed(version: u64, fill: impl FnOnce(&mut Tape)) -> Tape {
     let mut tape = Tape::default();
     tape.bytes.extend(MAGIC);
     tape.bytes.extend([0; SUM]);
@@ -200,7 +200,7 @@ fn sealed(version: u64, fill: impl FnOnce(&mut Tape)) -> Tape {
 }
 
 /// The tape of a file, at the version; `None` when the file is none of ours or its sum does not fit.
-fn unsealed(bytes: Vec<u8>) -> Option<Tape> {
+pub fn unsealed(bytes: Vec<u8>) -> Option<Tape> {
     let (magic, rest) = bytes.split_at_checked(MAGIC.len())?;
     let (sum, summed) = rest.split_at_checked(SUM)?;
     let holds = magic == MAGIC && sum == &Sha256::digest(summed)[..];

@@ -116,11 +116,11 @@ impl Theory {
     /// Run `visitor` with this theory's law of `material`.
     ///
     /// # Errors
-    /// [`Error::Argument`] when the theory needs a yield strength and the material has none.
+    /// [`Error::Refused`] when the theory needs a yield strength and the material has none.
     pub fn visit<V: LawVisitor>(self, material: &Material, visitor: V) -> Result<V::Output> {
         self.visit_law(material, visitor)
-            .ok_or_else(|| Error::Argument {
-                argument: "theory".to_owned(),
+            .ok_or_else(|| Error::Refused {
+                what: "theory".to_owned(),
                 found: self.name().to_owned(),
                 allowed: format!(
                     "needs `material.yield_strength`; an elastic body has the law {} only",

@@ -25,6 +25,10 @@ restitution = 0.5
 [box]
 width = "8 mm"
 depth = "8 mm"
+[[body]]
+name = "<!--<script>"
+at = ["-12 mm", "0 mm", "5 mm"]
+ball.radius = "2 mm"
 [[stage]]
 kind = "settle"
 stiffness = 0.1
@@ -136,6 +140,8 @@ fn the_page_draws_the_bed_and_follows_every_control() {
     for outside in ["http:", "https:", "src=", "@import"] {
         assert!(!page.contains(outside), "{outside} in the page");
     }
+    // the body's name is in the data, and opens no script
+    assert!(page.contains("\\u003c!--\\u003cscript>") && !page.contains("<!--<script"));
     let Some(browser) = browser::find() else {
         return;
     };

@@ -1,6 +1,7 @@
 //! Shipped scenes through the real binary, to their ends: every grain stays and the energy balance closes to 1 %.
 
 use crate::program::{message, program};
+use crate::reference::assert_described;
 use std::path::Path;
 
 /// Runs a scene of `cases/` and checks the summary of every run in it.
@@ -28,6 +29,12 @@ fn closes(name: &str) {
         assert_eq!(summary["status"], "ok", "{name}");
     }
     assert!(runs > 0, "{name}: no run left a summary");
+    // a bed that is not compressed is no oedometer
+    let compresses = std::fs::read_to_string(&case)
+        .unwrap()
+        .contains("\"compress\"");
+    let met = assert_described(scratch.path());
+    assert_eq!(met.contains("oedometer.csv"), compresses, "{name}");
 }
 
 #[test]

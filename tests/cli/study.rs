@@ -1,6 +1,7 @@
 //! Studies through the real binary: the file contract, equal groups run once, finished runs kept.
 
 use crate::program::{impactlaw, message};
+use impactlaw::curve::Impact;
 use std::path::Path;
 use std::process::Output;
 
@@ -38,7 +39,7 @@ fn equal_groups_run_once_and_a_second_call_repeats_nothing() {
     let first = std::fs::read_to_string(&results).unwrap();
     let rows: Vec<&str> = first.lines().filter(|l| !l.starts_with('#')).collect();
     assert!(rows[0].starts_with(
-        "density_kg_m3,young_modulus_Pa,yield_strength_Pa,poisson_ratio,radius_m,velocity_m_s,restitution,max_force_N"
+        "density_kg_m3,young_modulus_Pa,yield_strength_Pa,hardening_modulus_Pa,poisson_ratio,radius_m,velocity_m_s,restitution,max_force_N"
     ));
     assert!(rows[0].ends_with("points,steps,wall_s,status"));
     assert_eq!(rows.len(), 5);
@@ -123,21 +124,29 @@ fn runs_of_another_version_are_not_taken_over() {
         .unwrap()
         .unwrap()
         .path();
-    let put = |file: &str, from: &str, to: &str| {
-        let text = std::fs::read_to_string(run.join(file)).unwrap();
-        assert!(text.contains(from), "{text}");
-        std::fs::write(run.join(file), text.replace(from, to)).unwrap();
-    };
-    let points = "\"points\": ";
-    put("summary.json", points, "\"points\": 9");
+    let points = || Impact::read(&run).unwrap().summary.points;
+    let made = points();
+    let mut other = Impact::read(&run).unwrap();
+    other.summary.points = made + 1;
+    other.write(&run, "another").unwrap();
     let again = || {
-        assert!(study(folder.path()).status.success());
-        let text = std::fs::read_to_string(run.join("summary.json")).unwrap();
-        text.contains("\"points\": 9")
+        let output = study(folder.path());
+        assert!(output.status.success());
+        (points() == made + 1, message(&output))
     };
-    assert!(again(), "a kept run of this version is read");
-    put("run.json", impactlaw::PROGRAM, "impactlaw 0.0.1");
-    assert!(!again(), "one of another version is made again");
+    assert!(again().0, "a kept run of this version is read");
+    let mark = run.join("run.json");
+    let text = std::fs::read_to_string(&mark).unwrap();
+    std::fs::write(&mark, text.replace(impactlaw::PROGRAM, "impactlaw 0.0.1")).unwrap();
+    assert!(!again().0, "one of another version is made again");
+    // a figure that was changed by hand, or by a disk
+    let summary = run.join("summary.json");
+    let text = std::fs::read_to_string(&summary).unwrap();
+    let changed = text.replace("\"points\": ", "\"points\": 9");
+    std::fs::write(&summary, changed).unwrap();
+    let (taken, said) = again();
+    assert!(!taken && said.contains("is damaged"), "{said}");
+    assert_eq!(points(), made);
 }
 
 #[test]

@@ -4,9 +4,10 @@ use crate::codes::models;
 use crate::program;
 use impactlaw::document::Document;
 use impactlaw::export::Target;
-use impactlaw::export::check::{Agreement, Check, CompilerCheck, Finding};
+use impactlaw::export::check::{Agreement, Check, CompilerCheck, Finding, ShimCheck};
 use impactlaw::export::source::portable::Portable;
 use impactlaw::law::LawFile;
+use std::process::Command;
 
 /// Texts that ended a comment, continued a line, began a directive or left the folder.
 const ATTACKS: [&str; 9] = [
@@ -17,7 +18,7 @@ const ATTACKS: [&str; 9] = [
     "x\r\n#include \"attacked.h\"",
     "x\"; system(\"attacked\"); \"",
     "../../../attacked",
-    "/tmp/attacked",
+    "/attacked",
     "x\u{2028}attacked\u{202e}",
 ];
 
@@ -86,6 +87,57 @@ fn c_written_from_such_a_name_compiles_to_the_same_law() {
     if let Finding::Ran { agreements, .. } = CompilerCheck.run(&law, folder.path()).unwrap() {
         let wrong = |a: &&Agreement| !a.subject.starts_with("cost") && !a.holds();
         assert_eq!(agreements.iter().filter(wrong).count(), 0);
+    }
+}
+
+/// A law whose name, case, program and sum are all this text.
+fn attacked(attack: &str) -> Portable {
+    let mut file = law();
+    for place in PLACES {
+        *place(&mut file) = attack.to_owned();
+    }
+    Portable::new(file, None, "0".repeat(64)).unwrap()
+}
+
+#[test]
+fn force_models_written_from_such_names_compile_to_the_same_law() {
+    for attack in [ATTACKS[0], ATTACKS[4], ATTACKS[5]] {
+        for check in [ShimCheck::Deme, ShimCheck::MercuryDpm] {
+            let folder = tempfile::tempdir().unwrap();
+            match check.run(&attacked(attack), folder.path()).unwrap() {
+                Finding::Skipped { why } => eprintln!("!! SKIPPED: {why}"),
+                Finding::Ran { agreements, .. } => {
+                    assert!(agreements.iter().all(Agreement::holds), "{agreements:?}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn scripts_written_from_such_names_hold_no_command_of_theirs() {
+    for attack in ATTACKS {
+        for file in Target::Native.export(&attacked(attack)).unwrap() {
+            let commands = file.text.lines().map(str::trim_start);
+            let mut commands = commands.filter(|line| !line.starts_with('#'));
+            assert!(
+                !commands.any(|line| line.contains("system(")),
+                "{}",
+                file.name
+            );
+            if !file.name.ends_with(".py") {
+                continue;
+            }
+            let folder = tempfile::tempdir().unwrap();
+            let path = folder.path().join("attacked.py");
+            std::fs::write(&path, &file.text).unwrap();
+            let parse = "import ast, sys; ast.parse(open(sys.argv[1]).read())";
+            let mut python = Command::new("python3");
+            match python.args(["-c", parse]).arg(&path).status() {
+                Ok(status) => assert!(status.success(), "{}", file.name),
+                Err(why) => eprintln!("!! SKIPPED: no python3: {why}"),
+            }
+        }
     }
 }
 

@@ -328,6 +328,19 @@ fn every_file_says_what_it_is_for_and_stays_readable() {
 }
 
 #[test]
+fn arguments_are_refused_by_the_program_and_not_by_the_library() {
+    for module in modules().values() {
+        let allowed = ["error.rs", "command", "cli.rs"];
+        assert!(
+            allowed.iter().any(|place| module.file.starts_with(place))
+                || !module.text.contains("Error::Argument"),
+            "{} speaks of arguments: Error::Refused",
+            module.file.display()
+        );
+    }
+}
+
+#[test]
 fn rapier_is_named_in_the_machine_and_the_adapter_only() {
     for module in modules().values() {
         let code = module.text.lines().map(str::trim_start);

@@ -74,8 +74,8 @@ pub struct BedReport {
     pub packing: Option<LawRun>,
     /// The laws, in the scene's order.
     pub laws: Vec<LawRun>,
-    /// Stress, strain, coordination and dissipation of all laws: `oedometer.csv`.
-    pub oedometer: PathBuf,
+    /// Stress, strain, coordination and dissipation of all laws: `oedometer.csv`, of a bed that is compressed.
+    pub oedometer: Option<PathBuf>,
     /// Beds at the largest strain, side by side: `bed.png`.
     pub picture: PathBuf,
 }
@@ -85,7 +85,7 @@ pub struct BedReport {
 /// Call it from a worker of a rayon pool (`rayon::scope`), or every step pays for a change of threads.
 ///
 /// # Errors
-/// Before the first step [`crate::Error::Argument`] when the scene wants a fitted law and there is none, or one of
+/// Before the first step [`crate::Error::Refused`] when the scene wants a fitted law and there is none, or one of
 /// another material, and [`crate::Error::Value`] when grains or bodies have no room or the time step is too large;
 /// then [`crate::Error::Bed`] when a bed cannot go on and [`crate::Error::File`] when a file cannot be written.
 pub fn run_scene(scene: &Scene, given: Option<&LawFile>, options: &Options) -> Result<BedReport> {
@@ -103,9 +103,15 @@ pub fn run_scene(scene: &Scene, given: Option<&LawFile>, options: &Options) -> R
     for (name, laws) in scene.laws.iter().zip(laws) {
         runs.push(under_law(scene, name, laws, &start, options)?);
     }
-    let oedometer = options.folder.join("bed/oedometer.csv");
-    let series = runs.iter().map(|run| (run.law.as_str(), &run.rows[..]));
-    oedometer::write(&oedometer, options.provenance, series)?;
+    let compresses = scene
+        .stages
+        .iter()
+        .any(|stage| matches!(stage, Stage::Compress { .. }));
+    let oedometer = compresses.then(|| options.folder.join("bed/oedometer.csv"));
+    if let Some(path) = &oedometer {
+        let series = runs.iter().map(|run| (run.law.as_str(), &run.rows[..]));
+        oedometer::write(path, options.provenance, series)?;
+    }
     let picture = options.folder.join("bed/bed.png");
     let portraits: Vec<(&str, &Portrait)> = runs
         .iter()

@@ -189,7 +189,7 @@ impl GrainMaterial {
     /// Law of this material in the run called `run`; `given` is the law file beside the scene.
     ///
     /// # Errors
-    /// [`Error::Argument`] where a fitted law is wanted and there is none for this material.
+    /// [`Error::Refused`] where a fitted law is wanted and there is none for this material.
     pub fn law_in(&self, run: &str, given: Option<&LawFile>) -> Result<AnyLaw> {
         let theory = |theory| Ok(AnyLaw::Theory(theory, self.material));
         match (&self.law, run) {
@@ -212,8 +212,8 @@ impl GrainMaterial {
             Some(_) => "a law of another material",
             None => "nothing",
         };
-        Err(Error::Argument {
-            argument: "--law".to_owned(),
+        Err(Error::Refused {
+            what: "--law".to_owned(),
             found: found.to_owned(),
             allowed: format!(
                 "must name a law file of `[{key}]`: the scene asks for the law \"{FITTED}\" (or name the file there as `law`)",

@@ -2,7 +2,7 @@
 
 use crate::dem::dynamics::any::AnyBed;
 use crate::files::write_atomic;
-use crate::tape::{Keep, Tape, keep_fields};
+use crate::tape::{Keep, VERSION, keep_fields, sealed, unsealed};
 use crate::{Error, Result};
 use std::path::{Path, PathBuf};
 
@@ -100,8 +100,7 @@ impl Film {
     /// # Errors
     /// [`Error::File`] when it cannot be written.
     pub fn keep(&mut self, frame: &Frame) -> Result<()> {
-        let mut tape = Tape::default();
-        frame.save(&mut tape);
+        let tape = sealed(VERSION, |tape| frame.save(tape));
         write_atomic(&self.file(self.count), tape.as_bytes())?;
         self.count += 1;
         self.most = self.most.max(frame.centres.len());
@@ -133,13 +132,19 @@ impl Film {
     pub fn frame(&self, number: usize) -> Result<Frame> {
         let path = self.file(number);
         let bytes = std::fs::read(&path).map_err(Error::file("read", &path))?;
-        let mut frame = Frame::default();
-        match frame.load(&mut Tape::from_bytes(bytes)) {
-            Some(()) => Ok(frame),
-            None => Err(Error::file("read", &path)(
-                std::io::ErrorKind::InvalidData.into(),
-            )),
-        }
+        let load = || {
+            let mut tape = unsealed(bytes)?;
+            let (mut version, mut frame) = (0, Frame::default());
+            version.load(&mut tape)?;
+            (version == VERSION).then_some(())?;
+            frame.load(&mut tape)?;
+            tape.is_at_end().then_some(frame)
+        };
+        load().ok_or_else(|| {
+            let damaged = "it is damaged; remove the folder of the run to start anew";
+            let damaged = std::io::Error::new(std::io::ErrorKind::InvalidData, damaged);
+            Error::file("read", &path)(damaged)
+        })
     }
 
     /// At most `most` frames, evenly spread, the first and the last among them.

@@ -33,12 +33,12 @@ impl Periodic {
     /// Room whose corner is `low` (m), with the `period` (m) of each axis that has one.
     ///
     /// # Errors
-    /// [`Error::Argument`] unless every period is finite and above 0.
+    /// [`Error::Refused`] unless every period is finite and above 0.
     pub fn new(low: Vector, period: [Option<f64>; 3]) -> Result<Self> {
         for period in period.into_iter().flatten() {
             if !(period > 0.0 && period.is_finite()) {
-                return Err(Error::Argument {
-                    argument: "periodic".to_owned(),
+                return Err(Error::Refused {
+                    what: "periodic".to_owned(),
                     found: format!("a period of {period} m"),
                     allowed: "must be finite and above 0".to_owned(),
                 });
@@ -107,14 +107,14 @@ impl Periodic {
     /// listed centres.
     ///
     /// # Errors
-    /// [`Error::Argument`] when a period is not above twice the reach.
+    /// [`Error::Refused`] when a period is not above twice the reach.
     pub fn admit(&self, reach: f64) -> Result<()> {
         for axis in 0..3 {
             if let Some((_, length)) = self.along(axis)
                 && length <= 2.0 * reach
             {
-                return Err(Error::Argument {
-                    argument: "periodic".to_owned(),
+                return Err(Error::Refused {
+                    what: "periodic".to_owned(),
                     found: format!("a period of {length} m along {}", ["x", "y", "z"][axis]),
                     allowed: format!(
                         "must be above {} m, four radii of the largest grain and a margin, or two grains would meet through both sides",

@@ -19,11 +19,11 @@ Units, signs, reset: as in the headers of the laws. Contacts within one material
 /// Header of the contact of two laws, `<first>_with_<second>.h`, to stand beside theirs.
 ///
 /// # Errors
-/// [`Error::Argument`] when both laws have one name.
+/// [`Error::Refused`] when both laws have one name.
 pub fn export(first: &Portable, second: &Portable) -> Result<Artifact> {
     if first.identifier == second.identifier {
-        return Err(Error::Argument {
-            argument: "--with".to_owned(),
+        return Err(Error::Refused {
+            what: "--with".to_owned(),
             found: format!("a law of the same name, \"{}\"", second.name),
             allowed: "must have a name of its own: C tells laws apart by it".to_owned(),
         });

@@ -153,12 +153,12 @@ impl Projection {
 /// Every model fitted to `law`.
 ///
 /// # Errors
-/// [`Error::Argument`] for an elastic law, [`Error::Fit`] when a fit stops without a result.
+/// [`Error::Refused`] for an elastic law, [`Error::Fit`] when a fit stops without a result.
 pub fn project(law: &Portable, target: &Target) -> Result<Vec<Projection>> {
     let material = law.material();
     let Some(flow) = material.flow.filter(|_| law.form != Form::Hertz) else {
-        return Err(Error::Argument {
-            argument: "--to native".to_owned(),
+        return Err(Error::Refused {
+            what: "--to native".to_owned(),
             found: format!("the elastic law `{}`", law.name),
             allowed: "needs a law that yields; use the Hertz model of your code".to_owned(),
         });

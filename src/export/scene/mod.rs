@@ -207,7 +207,7 @@ fn check_contact(scene: &Scene, contact: &Constants) -> Result<()> {
 /// The law a scene calls fitted, ready for export; `given` is the law file beside the scene.
 ///
 /// # Errors
-/// [`Error::Argument`] when there is none for the scene's material.
+/// [`Error::Refused`] when there is none for the scene's material.
 pub fn law(scene: &Scene, given: Option<&LawFile>) -> Result<Portable> {
     let material = &scene.materials[scene.groups[0].material];
     material.law_in(FITTED, given)?;

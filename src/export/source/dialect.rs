@@ -17,6 +17,6 @@ pub trait Dialect {
     /// The files of a law.
     ///
     /// # Errors
-    /// [`crate::Error::Argument`] when the form cannot express the law.
+    /// [`crate::Error::Refused`] when the form cannot express the law.
     fn export(law: &Portable) -> Result<Vec<Artifact>>;
 }

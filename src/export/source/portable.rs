@@ -45,7 +45,7 @@ impl Portable {
     /// Portable form of a law file, in the form it names or in `form`.
     ///
     /// # Errors
-    /// Those of [`LawFile::read`]; [`Error::Argument`] when the file lacks the form.
+    /// Those of [`LawFile::read`]; [`Error::Refused`] when the file lacks the form.
     pub fn read(path: &Path, form: Option<Form>) -> Result<Self> {
         let document = Document::read(path)?;
         let file = LawFile::parse(&document)?;
@@ -55,7 +55,7 @@ impl Portable {
     /// Portable form of a law file whose text has the SHA-256 `hash`.
     ///
     /// # Errors
-    /// [`Error::Argument`] when the file lacks the form.
+    /// [`Error::Refused`] when the file lacks the form.
     pub fn new(file: LawFile, form: Option<Form>, hash: String) -> Result<Self> {
         let form = held(&file, form.unwrap_or(file.form))?;
         let full = file.law_in(form)?;
@@ -113,8 +113,8 @@ fn held(file: &LawFile, form: Form) -> Result<Form> {
     }
     let held = Form::ALL.into_iter().filter(holds);
     let names: Vec<&str> = held.map(Form::name).collect();
-    Err(Error::Argument {
-        argument: "--form".to_owned(),
+    Err(Error::Refused {
+        what: "--form".to_owned(),
         found: form.name().to_owned(),
         allowed: format!("is not in the law file, which holds {}", names.join(", ")),
     })

@@ -105,6 +105,13 @@ impl<W: Spelling> FlowConstants<W> {
         }
     }
 
+    /// Value of a constant, if the table names it.
+    #[must_use]
+    pub fn value(&self, constant: &Constant) -> Option<f64> {
+        let found = self.values.iter().find(|(c, _)| c == constant);
+        found.map(|(_, value)| *value)
+    }
+
     /// Whether the table names none.
     #[must_use]
     pub fn is_empty(&self) -> bool {

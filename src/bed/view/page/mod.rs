@@ -134,10 +134,9 @@ pub fn write_page(
         colours: COLOURS,
         bodies: bodies(bed),
     };
-    // "</" would end the script that holds the data; JSON may escape the slash
-    let json = serde_json::to_string(&data)
-        .map_err(|e| Error::file("write", path)(e.into()))?
-        .replace("</", "<\\/");
+    let json = serde_json::to_string(&data).map_err(|e| Error::file("write", path)(e.into()))?;
+    // "</script" would end the script that holds the data, and "<!--<script" would keep it open for ever
+    let json = json.replace('<', "\\u003c");
     write_atomic(path, html(title, summary, &json).as_bytes())
 }
 

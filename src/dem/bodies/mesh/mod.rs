@@ -161,11 +161,18 @@ pub fn read(bytes: &[u8], format: Format, unit: f64, tolerance: f64) -> Result<I
         ));
     }
     warnings.extend(welded.warnings);
+    let solid = Solid::Mesh {
+        vertices: welded.vertices.into_iter().map(|v| v * unit).collect(),
+        triangles: welded.triangles,
+    };
+    // squares of lengths overflow long before lengths do
+    if !solid.extent().is_finite() || !solid.reach().is_finite() {
+        return Err(
+            "reaches too far to be measured; repair the mesh, and look at `scale`".to_owned(),
+        );
+    }
     Ok(Import {
-        solid: Solid::Mesh {
-            vertices: welded.vertices.into_iter().map(|v| v * unit).collect(),
-            triangles: welded.triangles,
-        },
+        solid,
         opening,
         warnings,
     })
