@@ -2,9 +2,14 @@
 # Runs the shared packing, shaken, here and in LIGGGHTS and LAMMPS where they are installed; prints each one's
 # particle-steps a second of user time, and the differences of kinetic energy, coordination and height.
 #
+#   benches/peers.sh --silo      the silo of cases/bed-hopper.toml instead, mass flows side by side (benches/peers/silo.sh)
 #   benches/peers.sh [STEPS]     LAMMPS is `lmp` in PATH or $LMP; LIGGGHTS is `liggghts` in PATH or $LIGGGHTS
 set -euo pipefail
 cd "$(dirname "$0")/.."
+if [ "${1:-}" = --silo ]; then
+    shift
+    exec bash benches/peers/silo.sh "$@"
+fi
 steps=${1:-4000}
 here=$PWD
 folder=$(mktemp -d)

@@ -2,7 +2,7 @@
 
 use super::bed_export::BedExportArgs;
 use super::impact::interval;
-use super::{Command, Context, Verdict, on_a_worker, output_folder};
+use super::{Command, Context, Verdict, on_a_worker, output_folder, show};
 use crate::bed::measures::gauge::Finding;
 use crate::bed::measures::series::{CLOSURE, Row};
 use crate::bed::run::{BedReport, Options, run_scene};
@@ -89,7 +89,14 @@ fn run_here(args: &BedRunArgs, context: &Context) -> Result<Verdict> {
     let folder = output_folder(args.out.as_deref(), &scene.name)?;
     let report = simulate(&scene, law.as_ref(), &folder, args.seed, interval, context)?;
     let compressed = |stage: &Stage| matches!(stage, Stage::Compress { .. });
-    context.say(&summary(&report, scene.stages.iter().any(compressed)))?;
+    let compresses = scene.stages.iter().any(compressed);
+    if compresses {
+        let show = show::bed(&scene, &report, &report.picture)?;
+        for figure in &show.figures {
+            figure.write(&folder.join("bed"))?;
+        }
+    }
+    context.say(&summary(&report, compresses))?;
     Ok(verdict(&report))
 }
 
@@ -203,6 +210,7 @@ fn summary(report: &BedReport, compressed: bool) -> String {
 fn value(finding: &Finding) -> String {
     match finding.unit {
         "m" | "kg" | "kg/s" => in_mm_or_g(finding),
+        "Pa" => engineering(finding.value, "Pa", 3),
         "" => significant(finding.value, 4),
         unit => format!("{} {unit}", significant(finding.value, 4)),
     }

@@ -108,6 +108,44 @@ impl Figure {
         )
     }
 
+    /// Void ratio against axial stress, as soil engineers draw a compression, one curve a law.
+    ///
+    /// # Errors
+    /// [`crate::Error::Figure`] when it cannot be drawn.
+    pub fn compression(series: Vec<Series>) -> Result<Self> {
+        Self::chart(
+            "bed_compression".to_owned(),
+            "Void ratio against axial stress: loading, letting go and loading again. The slope of the loading is the compression index."
+                .to_owned(),
+            Chart {
+                x: Axis {
+                    log_if_wide: true,
+                    ..Axis::new("axial stress", "Pa")
+                },
+                y: Axis::new("void ratio", ""),
+                series,
+            },
+        )
+    }
+
+    /// Constrained modulus of the loading against axial stress, one curve a law beside a bound from theory.
+    ///
+    /// # Errors
+    /// [`crate::Error::Figure`] when it cannot be drawn.
+    pub fn modulus(series: Vec<Series>) -> Result<Self> {
+        Self::chart(
+            "bed_modulus".to_owned(),
+            "Tangent constrained modulus of the loading against axial stress; Walton: elastic grains that all strain alike, an \
+             upper bound with the contacts the bed has."
+                .to_owned(),
+            Chart {
+                x: Axis::new("axial stress", "Pa"),
+                y: Axis::new("constrained modulus", "Pa"),
+                series,
+            },
+        )
+    }
+
     /// Mean number of contacts a grain against axial strain, one curve a law.
     ///
     /// # Errors

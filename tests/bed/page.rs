@@ -86,6 +86,9 @@ const set = (id, value, kind) => {
 };
 const told = { pixels: view.width * view.height, complaints };
 told.frames = Number(document.getElementById('frame').max) + 1;
+told.opened = await look();
+told.ruler = [document.getElementById('length').textContent, document.getElementById('bar').clientWidth];
+set('frame', '0', 'input');
 told.first = await look();
 set('frame', String(told.frames - 1), 'input');
 told.last = await look();
@@ -154,6 +157,13 @@ fn the_page_draws_the_bed_and_follows_every_control() {
         share > 0.05 && share < 0.9,
         "{share} of the pixels are grains: {told}"
     );
+    // the page opens on the compressed bed, and says how large it is
+    let opened = told["opened"]["clock"].as_str().unwrap();
+    assert!(opened.ends_with("compress"), "{told}");
+    let length = told["ruler"][0].as_str().unwrap();
+    assert!(["1 mm", "2 mm", "5 mm"].contains(&length), "{told}");
+    let wide = told["ruler"][1].as_f64().unwrap();
+    assert!((40.0..128.0).contains(&wide), "{told}");
     let steps = [
         "first", "last", "plastic", "bare", "cut", "whole", "turned", "near", "during",
     ];

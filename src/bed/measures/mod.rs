@@ -3,5 +3,6 @@
 pub mod fabric;
 pub mod flow;
 pub mod gauge;
+pub mod oedometer;
 pub mod repose;
 pub mod series;

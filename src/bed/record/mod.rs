@@ -15,7 +15,7 @@ use crate::bed::measures::fabric::{Fabric, FabricRow};
 use crate::bed::measures::series::Row;
 use crate::bed::scene::OutputTable;
 use crate::bed::view::film::{Film, Frame};
-use crate::bed::view::page::write_page;
+use crate::bed::view::page::{shows_most, write_page};
 use crate::bed::view::picture::write_animation;
 use crate::dem::dynamics::any::AnyBed;
 use crate::dem::dynamics::contact::ContactRow;
@@ -146,6 +146,16 @@ impl Record {
             }
         }
         Ok(())
+    }
+
+    /// The frame of the film that shows most; none without a film.
+    ///
+    /// # Errors
+    /// [`Error::File`] when a frame cannot be read.
+    pub fn best_frame(&self) -> Result<Option<Frame>> {
+        let mut frames = self.film.spread(usize::MAX)?;
+        let best = shows_most(&frames);
+        Ok((best < frames.len()).then(|| frames.swap_remove(best)))
     }
 
     /// Removes the frames that the page, the animation and the dump were made from.

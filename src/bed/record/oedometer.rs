@@ -17,6 +17,7 @@ struct OedometerRow<'a> {
     #[serde(rename = "lateral_stress_Pa")]
     lateral_stress_pa: f64,
     coordination: f64,
+    inertial_number: f64,
     solid_fraction: f64,
     #[serde(rename = "plastic_J")]
     plastic_j: f64,
@@ -51,6 +52,7 @@ fn oedometer_row<'a>(law: &'a str, row: &'a Row) -> OedometerRow<'a> {
         stress_pa: row.stress_pa,
         lateral_stress_pa: row.lateral_stress_pa,
         coordination: row.coordination,
+        inertial_number: row.inertial_number,
         solid_fraction: row.solid_fraction,
         plastic_j: row.plastic_j,
         friction_j: row.losses.friction,

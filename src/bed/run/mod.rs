@@ -9,9 +9,10 @@ use self::watch::Watch;
 use crate::bed::filling::drain::Drain;
 use crate::bed::filling::{check_bodies, insert};
 use crate::bed::measures::gauge::finding;
+use crate::bed::measures::oedometer;
 use crate::bed::measures::series::{self, CLOSURE, Row};
 use crate::bed::record::Record;
-use crate::bed::record::oedometer;
+use crate::bed::record::oedometer as side_by_side;
 use crate::bed::record::summary::{Counts, Summary};
 use crate::bed::scene::{Scene, Stage};
 use crate::bed::stages::time_step;
@@ -27,6 +28,7 @@ use crate::dem::force::named::Constants;
 use crate::dem::grains::Grains;
 use crate::law::{AnyLaw, LawFile};
 use crate::tape::{Checkpoint, Keeper, TakenUp, VERSION};
+use crate::theory::Theory;
 use crate::{Error, Result};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -63,7 +65,7 @@ pub struct LawRun {
     pub summary: Summary,
     /// Grains at the end.
     pub grains: Grains,
-    /// The bed at the largest strain, or at the end, for a picture.
+    /// The bed at the largest strain, or where its film shows most, for a picture.
     pub portrait: Portrait,
     pub(in crate::bed) record: Record,
 }
@@ -76,7 +78,7 @@ pub struct BedReport {
     pub laws: Vec<LawRun>,
     /// Stress, strain, coordination and dissipation of all laws: `oedometer.csv`, of a bed that is compressed.
     pub oedometer: Option<PathBuf>,
-    /// Beds at the largest strain, side by side: `bed.png`.
+    /// Beds at the largest strain, or where their films show most, whole and cut open: `bed.png`.
     pub picture: PathBuf,
 }
 
@@ -110,7 +112,7 @@ pub fn run_scene(scene: &Scene, given: Option<&LawFile>, options: &Options) -> R
     let oedometer = compresses.then(|| options.folder.join("bed/oedometer.csv"));
     if let Some(path) = &oedometer {
         let series = runs.iter().map(|run| (run.law.as_str(), &run.rows[..]));
-        oedometer::write(path, options.provenance, series)?;
+        side_by_side::write(path, options.provenance, series)?;
     }
     let picture = options.folder.join("bed/bed.png");
     let portraits: Vec<(&str, &Portrait)> = runs
@@ -338,6 +340,11 @@ fn finish(
         ]
     });
     summary.findings = findings.chain(left).collect();
+    let yields = name != Theory::Hertz.name();
+    let (material, rows) = (scene.material(), &run.rows);
+    summary
+        .findings
+        .extend(oedometer::findings(rows, material, yields));
     summary.warnings = warnings(&run);
     let folder = folder(options, name);
     series::write(&folder.join("bed.csv"), options.provenance, &run.rows)?;
@@ -346,13 +353,17 @@ fn finish(
     watch.record.finish(run.bed.as_ref(), &title, &told)?;
     summary.write(&folder)?;
     let cast = Cast::of(run.bed.as_ref());
+    let shown = match watch.deepest {
+        Some(deepest) => Some(deepest),
+        None => watch.record.best_frame()?,
+    };
     let now = || Frame::of(run.bed.as_ref(), "");
     Ok(LawRun {
         law: name.to_owned(),
         rows: run.rows,
         summary,
         grains: run.bed.grains().clone(),
-        portrait: cast.at(&watch.deepest.unwrap_or_else(now)),
+        portrait: cast.at(&shown.unwrap_or_else(now)),
         record: watch.record,
     })
 }

@@ -27,6 +27,8 @@ pub enum Stage {
     Compress {
         /// Speed, m/s.
         speed: f64,
+        /// Speed of the piston far from the seating stress, m/s; it falls to `speed` as the stress comes up to that.
+        approach: f64,
         /// Piston stress that starts the strain measurement, once sustained, Pa.
         seating_stress: f64,
         /// Piston travel (m) over which that stress must be sustained: a few grains above the rest carry more for a while, then

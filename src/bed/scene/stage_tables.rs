@@ -30,6 +30,7 @@ pub(super) enum StageTable {
     },
     Compress {
         speed: Quantity<Velocity>,
+        approach: Option<Quantity<Velocity>>,
         seating_stress: Quantity<Pressure>,
         seating_travel: Option<Quantity<Length>>,
         strain: f64,
@@ -242,11 +243,21 @@ impl StageTable {
             },
             StageTable::Compress {
                 speed,
+                approach,
                 seating_stress,
                 seating_travel,
                 strain,
             } => Stage::Compress {
                 speed: at.positive("speed", speed)?,
+                approach: match approach {
+                    Some(approach) => document.check(
+                        &at.name("approach"),
+                        at.positive("approach", approach)?,
+                        |approach| approach >= speed.si(),
+                        "must be at least `speed`: the piston slows down as it meets the grains",
+                    )?,
+                    None => speed.si(),
+                },
                 seating_stress: at.positive("seating_stress", seating_stress)?,
                 seating_travel: some(&at, "seating_travel", seating_travel)?.unwrap_or(0.0),
                 strain: document.check(

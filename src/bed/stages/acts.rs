@@ -41,9 +41,18 @@ impl Run<'_> {
                 *longest
             }
             Stage::Relax { steps } => *steps as f64,
-            Stage::Compress { speed, strain, .. } => {
+            Stage::Compress {
+                speed,
+                approach,
+                strain,
+                ..
+            } => {
                 self.set_clock()?;
-                APPROACH * strain * self.lower_piston(*speed)? / speed
+                let first = match self.progress.seated_height {
+                    Some(_) => speed,
+                    None => approach,
+                };
+                APPROACH * strain * self.lower_piston(*first)? / speed
             }
             Stage::Unload { speed } => {
                 self.drive_piston(*speed);
@@ -134,14 +143,33 @@ impl Run<'_> {
             self.place.slow_since = slow.then_some(since);
         }
         if let Stage::Compress {
+            speed,
+            approach,
             seating_stress,
             seating_travel,
             ..
         } = stage
-            // the first touch is seen at once, a stress that lasts by the looks at it
-            && (survey.is_some() || *seating_travel == 0.0)
         {
-            self.seat(*seating_stress, *seating_travel);
+            // the first touch is seen at once, a stress that lasts by the looks at it
+            if survey.is_some() || *seating_travel == 0.0 {
+                self.seat(*seating_stress, *seating_travel);
+            }
+            if approach > speed {
+                self.slow_down(*speed, *approach, *seating_stress);
+            }
+        }
+    }
+
+    /// Drives the piston slower the nearer its stress is to that of its seat: v = v_a (1 - stress / seating stress), and
+    /// never below the speed of the test, which holds once it is seated.
+    fn slow_down(&mut self, speed: f64, approach: f64, seating_stress: f64) {
+        let left = match (self.progress.seated_height, self.place.carried_since) {
+            (None, None) => 1.0 - self.view().stress(self.bed.as_ref()) / seating_stress,
+            _ => 0.0,
+        };
+        let wanted = (approach * left).max(speed);
+        if wanted != self.progress.piston_speed {
+            self.drive_piston(-wanted);
         }
     }
 

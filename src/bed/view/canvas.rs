@@ -10,6 +10,24 @@ pub const INK: [f64; 3] = [0.13, 0.14, 0.17];
 /// Colour of what is empty.
 pub const PAPER: [f64; 3] = [1.0, 1.0, 1.0];
 
+/// Where the place of a word is within it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Align {
+    /// At its left end.
+    Left,
+    /// In its middle.
+    Middle,
+    /// At its right end.
+    Right,
+}
+
+/// Largest of 1, 2 and 5 times a power of ten that is not above `length`.
+fn round_below(length: f64) -> f64 {
+    let power = 10f64.powf(length.log10().floor());
+    let step = [5.0, 2.0].into_iter().find(|step| step * power <= length);
+    step.unwrap_or(1.0) * power
+}
+
 /// Picture in memory, from the upper left corner, row by row.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Canvas {
@@ -45,15 +63,39 @@ impl Canvas {
         }
     }
 
-    /// Writes `text` with its middle at `x`, its top at `y`.
-    pub fn write(&mut self, text: &str, [x, y]: [usize; 2], size: usize) {
-        let left = x.saturating_sub(lettering::width(text) * size / 2);
-        lettering::draw(text, |column, row| {
-            for at in 0..size * size {
-                let (column, row) = (column * size + at % size, row * size + at / size);
-                self.dot(left + column, y + row, INK);
+    /// Writes `text`, `size` pixels high, its top at `y`; `x` is its left end, its middle or its right end.
+    pub fn write(&mut self, text: &str, [x, y]: [usize; 2], size: f64, align: Align) {
+        let share = match align {
+            Align::Left => 0.0,
+            Align::Middle => 0.5,
+            Align::Right => 1.0,
+        };
+        let left = x as f64 - share * lettering::width(text, size);
+        let (width, height) = (self.width as i64, self.height as i64);
+        lettering::draw(text, [left, y as f64], size, |column, row, cover| {
+            if (0..width).contains(&column) && (0..height).contains(&row) {
+                let pixel = &mut self.pixels[(row * width + column) as usize];
+                *pixel = [0, 1, 2].map(|c| pixel[c] * (1.0 - cover) + INK[c] * cover);
             }
         });
+    }
+
+    fn block(&mut self, [left, top]: [usize; 2], [width, height]: [usize; 2]) {
+        for at in 0..width * height {
+            self.dot(left + at % width, top + at / width, INK);
+        }
+    }
+
+    /// Scale bar: a length of a round number of metres about a quarter of `width` pixels long, its left lower end at
+    /// `corner`; a pixel stands for `pixel` metres.
+    pub fn scale_bar(&mut self, pixel: f64, [left, bottom]: [usize; 2], width: usize) {
+        let length = round_below(0.27 * width as f64 * pixel);
+        let across = (length / pixel).round() as usize;
+        self.block([left, bottom - 4], [across, 3]);
+        self.block([left, bottom - 10], [2, 9]);
+        self.block([left + across - 2, bottom - 10], [2, 9]);
+        let middle = [left + across / 2, bottom - 29];
+        self.write(&engineering(length, "m", 3), middle, 16.0, Align::Middle);
     }
 
     /// Scale of colours up to `most`, its middle at `x`, its top at `y`, with numbers and a line of words below.
@@ -61,16 +103,19 @@ impl Canvas {
         let left = x.saturating_sub(length / 2);
         for across in 0..length {
             let colour = colour(across as f64 / (length - 1) as f64);
-            (0..16).for_each(|down| self.dot(left + across, y + down, colour));
+            (0..14).for_each(|down| self.dot(left + across, y + down, colour));
         }
         for decade in 0..=DECADES as usize {
             let part = decade as f64 / DECADES;
             let value = most * 10f64.powf(decade as f64 - DECADES);
             let x = left + (part * (length - 1) as f64) as usize;
-            (16..21).for_each(|down| self.dot(x, y + down, INK));
-            self.write(&engineering(value, unit, 2), [x, y + 24], 2);
+            self.block([x, y + 14], [1, 5]);
+            // colours end at the first mark: smaller values look like it
+            let sign = if decade == 0 { "≤ " } else { "" };
+            let text = format!("{sign}{}", engineering(value, unit, 2));
+            self.write(&text, [x, y + 21], 15.0, Align::Middle);
         }
-        self.write(words, [x, y + 46], 2);
+        self.write(words, [x, y + 41], 17.0, Align::Middle);
     }
 
     fn bytes(&self) -> Vec<u8> {
@@ -114,6 +159,22 @@ fn encode(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_scale_bar_has_a_round_length() {
+        for (length, round) in [
+            (1.0, 1.0),
+            (1.9e-3, 1e-3),
+            (2.3e-3, 2e-3),
+            (0.9, 0.5),
+            (49.0, 20.0),
+        ] {
+            assert!(
+                (round_below(length) / round - 1.0).abs() < 1e-12,
+                "{length}"
+            );
+        }
+    }
 
     #[test]
     fn an_animation_holds_all_its_pictures_and_another_reader_finds_them() {

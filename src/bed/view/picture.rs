@@ -1,6 +1,6 @@
 //! Pictures of beds: one PNG of several beds side by side, and an animation of one.
 
-use super::canvas::{Canvas, png};
+use super::canvas::{Align, Canvas, png};
 use super::colours::{colour, level};
 use super::film::Film;
 use super::portrait::{Cast, Portrait};
@@ -13,36 +13,75 @@ use parry3d::math::Vector;
 use std::path::Path;
 use std::time::Duration;
 
-/// Pixels of one bed.
-const PANEL: [usize; 2] = [460, 480];
+/// Pixels of one view of a bed.
+const PANEL: [usize; 2] = [560, 520];
 /// Pixels of one bed in an animation.
-const MOVING: [usize; 2] = [400, 400];
+const MOVING: [usize; 2] = [440, 440];
 /// Pixels above the beds for their names, and below for the scale of colours.
-const MARGINS: [usize; 2] = [44, 76];
+const MARGINS: [usize; 2] = [64, 76];
+/// What the two views of a bed are.
+const VIEWS: [&str; 2] = ["whole", "cut open in the middle"];
 /// How long a picture of an animation is shown.
 const EACH: Duration = Duration::from_millis(120);
 /// What grains are painted by.
 const FORCE: &str = "sum of contact forces on a grain";
 const PLASTIC: &str = "energy lost to plastic flow";
 
-/// Writes a PNG of named beds, coloured by the forces on their grains, all on one scale.
+/// Writes a PNG of named beds, each whole and cut open, coloured by the forces on their grains, all on one scale of
+/// colours: one bed with its two views side by side, several beds side by side with their views one above the other.
 ///
 /// # Errors
 /// [`crate::Error::File`] when it cannot be written.
 pub fn write_picture(path: &Path, beds: &[(&str, &Portrait)]) -> Result<()> {
     let most = most(beds.iter().flat_map(|(_, portrait)| &portrait.squeeze));
-    let width = PANEL[0] * beds.len();
-    let mut canvas = Canvas::new(width, MARGINS[0] + PANEL[1] + MARGINS[1]);
+    let (across, down) = match beds.len() {
+        1 => (VIEWS.len(), 1),
+        count => (count, VIEWS.len()),
+    };
+    let (width, height) = (PANEL[0] * across, PANEL[1] * down);
+    let mut canvas = Canvas::new(width, MARGINS[0] + height + MARGINS[1]);
     for (index, (name, portrait)) in beds.iter().enumerate() {
         let sight = Sight::of(portrait.bounds(), PANEL);
-        for pixels in draw(portrait, sight, &[paint(&portrait.squeeze, most)]) {
-            canvas.put(&pixels, PANEL[0], [index * PANEL[0], MARGINS[0]]);
+        let views = [(*portrait).clone(), portrait.cut_open()];
+        for (number, (view, words)) in views.iter().zip(VIEWS).enumerate() {
+            let place = if down == 1 {
+                [number, 0]
+            } else {
+                [index, number]
+            };
+            let (left, top) = (place[0] * PANEL[0], MARGINS[0] + place[1] * PANEL[1]);
+            for pixels in draw(view, sight, &[paint(&view.squeeze, most)]) {
+                canvas.put(&pixels, PANEL[0], [left, top]);
+            }
+            canvas.write(
+                words,
+                [left + PANEL[0] - 14, top + PANEL[1] - 28],
+                16.0,
+                Align::Right,
+            );
+            canvas.scale_bar(
+                sight.pixel() * portrait.unit,
+                [left + 16, top + PANEL[1] - 10],
+                PANEL[0],
+            );
         }
-        canvas.write(name, [index * PANEL[0] + PANEL[0] / 2, 14], 3);
+        let middle = width / beds.len() * index + width / beds.len() / 2;
+        head(&mut canvas, name, portrait, middle);
     }
-    let top = MARGINS[0] + PANEL[1] + 8;
+    let top = MARGINS[0] + height + 8;
     canvas.scale(FORCE, most, "N", [width / 2, top], (width * 3 / 4).min(720));
     write_atomic(path, &png(&[canvas], EACH))
+}
+
+/// Name of a bed, stage and time above it.
+fn head(canvas: &mut Canvas, name: &str, portrait: &Portrait, middle: usize) {
+    canvas.write(name, [middle, 10], 26.0, Align::Middle);
+    let time = engineering(portrait.time, "s", 4);
+    let moment = match &portrait.stage[..] {
+        "" => time,
+        stage => format!("{stage}, {time}"),
+    };
+    canvas.write(&moment, [middle, 40], 17.0, Align::Middle);
 }
 
 /// Writes an animated PNG of at most `most` frames of a film: forces on the left, what was lost to plastic flow on the
@@ -71,8 +110,7 @@ pub fn write_animation(
     let width = MOVING[0] * if flows { 2 } else { 1 };
     let pictures: Vec<Canvas> = portraits
         .iter()
-        .zip(&frames)
-        .map(|(portrait, frame)| {
+        .map(|portrait| {
             let mut canvas = Canvas::new(width, MARGINS[0] + MOVING[1] + MARGINS[1]);
             let mut paints = vec![paint(&portrait.squeeze, force)];
             if flows {
@@ -83,15 +121,12 @@ pub fn write_animation(
             for (index, (pixels, (words, most, unit))) in panels.iter().zip(scales).enumerate() {
                 let left = index * MOVING[0];
                 canvas.put(pixels, MOVING[0], [left, MARGINS[0]]);
+                let corner = [left + 12, MARGINS[0] + MOVING[1] - 6];
+                canvas.scale_bar(sight.pixel() * portrait.unit, corner, MOVING[0]);
                 let middle = [left + MOVING[0] / 2, MARGINS[0] + MOVING[1] + 8];
                 canvas.scale(words, most, unit, middle, MOVING[0] * 4 / 5);
             }
-            let time = engineering(frame.time, "s", 3);
-            canvas.write(
-                &format!("{name} {} {time}", frame.stage),
-                [width / 2, 14],
-                2,
-            );
+            head(&mut canvas, name, portrait, width / 2);
             canvas
         })
         .collect();

@@ -24,6 +24,12 @@ pub struct Portrait {
     pub plastic: Vec<f64>,
     /// Bodies.
     pub bodies: Vec<Sitter>,
+    /// Unit of length, m.
+    pub unit: f64,
+    /// Time, s.
+    pub time: f64,
+    /// Stage.
+    pub stage: String,
 }
 
 /// A body in a picture; lengths count the largest radius.
@@ -83,6 +89,9 @@ impl Cast {
         let there = self.sitters.iter().zip(&frame.poses).enumerate();
         let there = there.filter(|(index, _)| !frame.gone.contains(index));
         Portrait {
+            unit: self.unit,
+            time: frame.time,
+            stage: frame.stage.clone(),
             centres: frame
                 .centres
                 .iter()
@@ -134,6 +143,27 @@ impl Portrait {
     #[must_use]
     pub fn of(bed: &dyn AnyBed) -> Self {
         Cast::of(bed).at(&Frame::of(bed, ""))
+    }
+
+    /// The bed cut open by the upright plane through its middle that faces the eye: grains in front of it are left out.
+    #[must_use]
+    pub fn cut_open(&self) -> Self {
+        let [low, high] = self.bounds();
+        let middle = 0.5 * (low.y + high.y);
+        let behind: Vec<usize> = (0..self.centres.len())
+            .filter(|&grain| self.centres[grain].y > middle)
+            .collect();
+        let pick = |values: &[f64]| behind.iter().map(|&grain| values[grain]).collect();
+        Self {
+            centres: behind.iter().map(|&grain| self.centres[grain]).collect(),
+            radii: pick(&self.radii),
+            squeeze: pick(&self.squeeze),
+            plastic: pick(&self.plastic),
+            bodies: self.bodies.clone(),
+            unit: self.unit,
+            time: self.time,
+            stage: self.stage.clone(),
+        }
     }
 
     /// Lowest and highest corner of nearly all grains, and of the bodies that move by themselves.

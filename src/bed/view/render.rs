@@ -1,4 +1,5 @@
-//! Rendering of a bed by parry ray casts: grains in colours, bodies that move by themselves solid, walls as glass.
+//! Rendering of a bed by parry ray casts: grains in colours, bodies that move by themselves solid, walls
+//! behind them pale, walls before them as edges only: nothing tints the colour of a grain.
 
 use super::canvas::{INK, PAPER};
 use super::portrait::{Portrait, Sitter};
@@ -20,10 +21,7 @@ const LIGHT: Vector = Vector::new(0.25, -0.75, 1.0);
 /// Room around a bed, over its size.
 const BORDER: f64 = 1.12;
 const WALL: [f64; 3] = [0.90, 0.91, 0.93];
-const GLASS: [f64; 3] = [0.55, 0.60, 0.66];
 const BODY: [f64; 3] = [0.52, 0.58, 0.66];
-/// How much of what is behind a wall it covers, seen straight on and more seen edge on.
-const COVER: [f64; 2] = [0.06, 0.14];
 /// How much an edge covers.
 const EDGE: f64 = 0.55;
 
@@ -57,6 +55,12 @@ impl Sight {
         }
     }
 
+    /// Length of a pixel.
+    #[must_use]
+    pub fn pixel(&self) -> f64 {
+        self.pixel
+    }
+
     fn ray(&self, x: f64, y: f64) -> Ray {
         let x = (x - 0.5 * self.size[0] as f64) * self.pixel;
         let y = (0.5 * self.size[1] as f64 - y) * self.pixel;
@@ -85,12 +89,6 @@ struct Seen {
 }
 
 impl Seen {
-    fn over(mut self, colour: [f64; 3], cover: f64) -> Self {
-        self.own *= 1.0 - cover;
-        self.rest = [0, 1, 2].map(|c| self.rest[c] * (1.0 - cover) + colour[c] * cover);
-        self
-    }
-
     fn colour(&self, paint: &[[f64; 3]]) -> [f64; 3] {
         let own = self.grain.map_or([0.0; 3], |grain| paint[grain]);
         [0, 1, 2].map(|c| (own[c] * self.own + self.rest[c]).min(1.0))
@@ -176,41 +174,32 @@ impl Stage<'_> {
     fn look(&self, x: f64, y: f64) -> Seen {
         let ray = self.sight.ray(x, y);
         let walls = self.portrait.bodies.iter().filter(|body| !body.free);
-        let mut glass: Vec<(f64, Vector)> = walls
-            .filter_map(|wall| hit(wall, &ray))
-            .filter(|(_, normal)| normal.dot(self.sight.eye) > 0.0)
-            .collect();
-        glass.sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
-        let mut seen = match self.solid(&ray) {
-            Some(seen) => seen,
-            None => match glass.first() {
-                // nothing behind: the last wall closes the view
-                Some(&(distance, normal)) => {
-                    let wall = self.lit(&ray, distance, normal, usize::MAX - 1);
-                    // pale whichever way it faces: shadows show, sides do not compete with grains
-                    let shade = 0.8 + 0.2 * wall.own.min(1.0);
-                    Seen {
-                        own: 0.0,
-                        rest: WALL.map(|c| c * shade),
-                        ..wall
-                    }
-                }
-                None => Seen {
-                    what: usize::MAX,
-                    grain: None,
-                    own: 0.0,
-                    rest: PAPER,
-                    distance: f64::INFINITY,
-                },
-            },
-        };
-        for (distance, normal) in glass {
-            if distance < seen.distance {
-                let slant = 1.0 - normal.dot(self.sight.eye);
-                seen = seen.over(GLASS, COVER[0] + COVER[1] * slant);
-            }
+        if let Some(seen) = self.solid(&ray) {
+            return seen;
         }
-        seen
+        let facing = walls
+            .filter_map(|wall| hit(wall, &ray))
+            .filter(|(_, normal)| normal.dot(self.sight.eye) > 0.0);
+        match facing.max_by(|a, b| a.0.total_cmp(&b.0)) {
+            // nothing behind: the last wall closes the view
+            Some((distance, normal)) => {
+                let wall = self.lit(&ray, distance, normal, usize::MAX - 1);
+                // pale whichever way it faces: shadows show, sides do not compete with grains
+                let shade = 0.8 + 0.2 * wall.own.min(1.0);
+                Seen {
+                    own: 0.0,
+                    rest: WALL.map(|c| c * shade),
+                    ..wall
+                }
+            }
+            None => Seen {
+                what: usize::MAX,
+                grain: None,
+                own: 0.0,
+                rest: PAPER,
+                distance: f64::INFINITY,
+            },
+        }
     }
 
     /// Grain or solid body that a ray meets first.

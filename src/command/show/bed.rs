@@ -1,6 +1,7 @@
 //! Bed shown: facts of the scene, figures of each law, curves, picture.
 
 use crate::Result;
+use crate::bed::measures::oedometer;
 use crate::bed::measures::series::Row;
 use crate::bed::run::{BedReport, LawRun};
 use crate::bed::scene::{FITTED, Scene};
@@ -18,13 +19,19 @@ use std::path::Path;
 /// # Errors
 /// [`crate::Error::Figure`] when a curve cannot be drawn.
 pub fn bed(scene: &Scene, report: &BedReport, picture: &Path) -> Result<BedShow> {
-    let series = |value: fn(&Row) -> f64| report.laws.iter().map(|law| line(law, value)).collect();
+    let series = |value: fn(&Row) -> f64| {
+        let each = report.laws.iter();
+        each.map(|law| line(law, |row| (row.strain, value(row))))
+            .collect()
+    };
     let caption = "The bed at its largest strain.".to_owned();
     Ok(BedShow {
         facts: facts(scene, report),
         results: results(report),
         figures: vec![
             Figure::stress_strain(series(|row| row.stress_pa))?,
+            Figure::compression(report.laws.iter().map(compression).collect())?,
+            Figure::modulus(moduli(scene, report))?,
             Figure::coordination(series(|row| row.coordination))?,
             Figure::plastic_share(series(Row::plastic_share))?,
         ],
@@ -126,8 +133,41 @@ fn results(report: &BedReport) -> Table {
     table
 }
 
+/// Void ratio over stress; where the piston comes off, the stress has no logarithm.
+fn compression(run: &LawRun) -> Series {
+    let voids = |row: &Row| (1.0 - row.solid_fraction) / row.solid_fraction;
+    let mut series = line(run, |row| (row.stress_pa, voids(row)));
+    series
+        .points
+        .retain(|point| point.0 > LEAST * run.summary.max_stress_pa);
+    series
+}
+
+/// Tangent moduli of each law, and Walton's bound with the contacts of the stiffest.
+fn moduli(scene: &Scene, report: &BedReport) -> Vec<Series> {
+    let each = report.laws.iter().map(|run| Series {
+        points: oedometer::tangents(&run.rows),
+        ..line(run, |_| (0.0, 0.0))
+    });
+    let mut series: Vec<Series> = each.collect();
+    let stiffest = report.laws.iter().max_by(|a, b| {
+        let stress = |run: &LawRun| run.summary.max_stress_pa;
+        stress(a).total_cmp(&stress(b))
+    });
+    series.extend(stiffest.map(|run| Series {
+        label: "Walton".to_owned(),
+        role: Role::Other,
+        mark: Mark::Line,
+        points: oedometer::walton(&run.rows, scene.material()),
+    }));
+    series
+}
+
+/// Part of the largest stress below which a curve over its logarithm ends.
+const LEAST: f64 = 0.01;
+
 /// Curve of one law from the seating stress on.
-fn line(run: &LawRun, value: fn(&Row) -> f64) -> Series {
+fn line(run: &LawRun, point: impl Fn(&Row) -> (f64, f64)) -> Series {
     Series {
         label: run.law.clone(),
         role: match run.law.parse::<Theory>() {
@@ -140,7 +180,7 @@ fn line(run: &LawRun, value: fn(&Row) -> f64) -> Series {
             .rows
             .iter()
             .filter(|row| row.strain > 0.0)
-            .map(|row| (row.strain, value(row)))
+            .map(point)
             .collect(),
     }
 }

@@ -9,6 +9,7 @@ use std::fmt::Write;
 const BEGIN: &str = include_str!("lammps_begin.in");
 const PARTS: Parts = Parts {
     drive: include_str!("lammps_drive.in"),
+    turn: "",
     seat: include_str!("lammps_seat.in"),
     end: "",
 };

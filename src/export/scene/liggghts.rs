@@ -9,6 +9,7 @@ use std::fmt::Write;
 const BEGIN: &str = include_str!("liggghts_begin.in");
 const PARTS: Parts = Parts {
     drive: include_str!("liggghts_drive.in"),
+    turn: "unfix drive\n",
     seat: include_str!("liggghts_seat.in"),
     end: include_str!("liggghts_end.in"),
 };

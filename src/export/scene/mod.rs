@@ -391,18 +391,22 @@ impl Bed<'_> {
             match *stage {
                 Stage::Compress {
                     speed,
+                    approach,
                     seating_stress,
                     seating_travel,
                     strain,
                 } => {
-                    let words = words(
-                        -speed,
-                        &[
-                            ("@SEATING@", seating_stress),
-                            ("@TRAVEL@", seating_travel),
-                            ("@STRAIN@", strain),
-                        ],
-                    );
+                    let more = [
+                        ("@SEATING@", seating_stress),
+                        ("@TRAVEL@", seating_travel),
+                        ("@STRAIN@", strain),
+                    ];
+                    if !seated && approach > speed {
+                        for part in [parts.drive, NEAR, parts.turn] {
+                            text.push_str(&self.fill(part, &words(-approach, &more)));
+                        }
+                    }
+                    let words = words(-speed, &more);
                     let seat = if seated { "" } else { parts.seat };
                     seated = true;
                     for part in [parts.drive, seat, COMPRESS, parts.end] {
@@ -422,11 +426,14 @@ impl Bed<'_> {
 }
 
 const COMPRESS: &str = include_str!("compress.in");
+const NEAR: &str = include_str!("approach.in");
 const UNLOAD: &str = include_str!("unload.in");
 
 /// What a code says at the beginning of a stage, until the piston is seated, and at the end.
 struct Parts {
     drive: &'static str,
+    /// Between two velocities of the piston within a stage.
+    turn: &'static str,
     seat: &'static str,
     end: &'static str,
 }

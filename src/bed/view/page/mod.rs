@@ -70,6 +70,8 @@ struct Data<'a> {
     quantities: Vec<Quantity>,
     decades: f64,
     colours: [[f64; 3]; 7],
+    /// Frame the page opens on.
+    opens: usize,
     frames: Vec<ShownFrame>,
     bodies: Vec<ShownBody<'a>>,
 }
@@ -122,6 +124,7 @@ pub fn write_page(
     let quantities = quantities(&frames);
     let data = Data {
         view: looked_at(&frames, radii),
+        opens: shows_most(&frames),
         radii: encode(radii.iter().map(|r| r.to_le_bytes())),
         low: bounds[0],
         size,
@@ -234,6 +237,36 @@ fn quantities(frames: &[Frame]) -> Vec<Quantity> {
     ]
 }
 
+/// The frame that shows most: of those in which most grains touch something, the one whose colours are the brightest,
+/// all quantities together. A bed at the height of its compression, a silo that flows, a body as it plunges in: not a bed
+/// that is still to fall, nor one at rest.
+#[must_use]
+pub fn shows_most(frames: &[Frame]) -> usize {
+    let quantities = quantities(frames);
+    let brightness = |frame: &Frame| -> f64 {
+        let count = frame.centres.len().max(1) as f64;
+        let touching = frame.squeeze.iter().filter(|&&force| force > 0.0).count();
+        if 2 * touching <= frame.centres.len() {
+            return 0.0;
+        }
+        let values = [&frame.squeeze, &frame.speed, &frame.plastic];
+        let mean = |(quantity, values): (&Quantity, &Vec<f32>)| {
+            let levels = values.iter().map(|&v| level(f64::from(v), quantity.most));
+            levels.sum::<f64>() / count
+        };
+        quantities.iter().zip(values).map(mean).sum()
+    };
+    let mut best = (0, 0.0);
+    for (number, frame) in frames.iter().enumerate() {
+        let now = brightness(frame);
+        // of two alike the later one
+        if now >= best.1 {
+            best = (number, now);
+        }
+    }
+    best.0
+}
+
 fn shown(
     frame: &Frame,
     low: [f32; 3],
@@ -297,6 +330,29 @@ mod tests {
         for outside in ["http:", "https:", "src=", "@import", "fetch("] {
             assert!(!html.contains(outside), "{outside}");
         }
+    }
+
+    #[test]
+    fn a_page_opens_on_the_bed_under_load_and_not_on_grains_that_fall() {
+        let frame = |squeeze: f32, speed: f32| Frame {
+            centres: vec![[0.0; 3]; 4],
+            squeeze: vec![squeeze; 4],
+            speed: vec![speed; 4],
+            plastic: vec![0.0; 4],
+            ..Frame::default()
+        };
+        // falling, at rest, pressed, let go
+        let frames = [
+            frame(0.0, 1.0),
+            frame(1e-3, 1e-4),
+            frame(1.0, 1e-4),
+            frame(1e-3, 1e-4),
+        ];
+        assert_eq!(shows_most(&frames), 2);
+        // full, flowing, empty
+        let frames = [frame(0.3, 0.0), frame(0.2, 1.0), frame(0.01, 0.0)];
+        assert_eq!(shows_most(&frames), 1);
+        assert_eq!(shows_most(&[]), 0);
     }
 
     #[test]

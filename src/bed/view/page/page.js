@@ -165,7 +165,7 @@
   // ---- camera -------------------------------------------------------------------------------------------------
   const START = { yaw: -0.97, pitch: 0.36, zoom: 1, x: 0, y: 0 };
   let eye = { ...START };
-  let now = 0, playing = false, quantity = bed.quantities[0].key;
+  let now = bed.opens, fresh = true, playing = false, quantity = bed.quantities[0].key;
   const low = bed.view[0], high = bed.view[1];
   const middle = low.map((x, i) => 0.5 * (x + high[i]));
   const reach = 0.5 * Math.hypot(...high.map((x, i) => x - low[i])) || 1;
@@ -232,7 +232,8 @@
     return { translation: mixed.slice(0, 3), rotation: mixed.slice(3).map((q) => q / length) };
   };
 
-  const drawBodies = (first, second, part, opaque) => {
+  const FACES = 1, EDGES = 2;
+  const drawBodies = (first, second, part, opaque, what) => {
     const { program, at, input } = solids;
     gl.useProgram(program);
     camera(solids);
@@ -249,13 +250,13 @@
       gl.uniform3fv(at.tint, opaque ? [0.55, 0.63, 0.72] : ink.map((c) => 0.5 * c + 0.25));
       gl.uniform2f(at.glass, opaque ? 1 : 0.045, opaque ? 0 : 0.12);
       gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, body.triangles);
-      gl.drawElements(gl.TRIANGLES, body.faces, gl.UNSIGNED_INT, 0);
+      if (what & FACES) gl.drawElements(gl.TRIANGLES, body.faces, gl.UNSIGNED_INT, 0);
       gl.uniform1f(at.plain, 1);
       gl.uniform1f(at.nearer, 1e-4);
       gl.uniform3fv(at.tint, ink);
       gl.uniform2f(at.glass, 0.45, 0);
       gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, body.edges);
-      gl.drawElements(gl.LINES, body.ends, gl.UNSIGNED_INT, 0);
+      if (what & EDGES) gl.drawElements(gl.LINES, body.ends, gl.UNSIGNED_INT, 0);
     });
     gl.depthMask(true);
   };
@@ -273,10 +274,13 @@
     const first = Math.min(Math.floor(now), bed.frames.length - 1);
     const second = Math.min(first + 1, bed.frames.length - 1), part = now - first;
     const shown = $("bodies").checked;
-    if (shown) drawBodies(first, second, part, true);
+    // walls first: grains cover them, so that nothing tints a colour
+    if (shown) drawBodies(first, second, part, false, FACES);
+    if (shown) drawBodies(first, second, part, true, FACES | EDGES);
     drawGrains(first, second, part);
-    if (shown) drawBodies(first, second, part, false);
+    if (shown) drawBodies(first, second, part, false, EDGES);
     tell(first, second, part);
+    ruler();
   };
   let waiting = false;
   const redraw = () => {
@@ -296,6 +300,14 @@
     const [a, b] = [bed.frames[first], bed.frames[second]];
     $("frame").value = String(Math.round(now));
     $("clock").textContent = `${number(a.time + part * (b.time - a.time), "s")} · ${a.stage}`;
+  };
+  /** Scale bar: a round length, about a fifth of the view. */
+  const ruler = () => {
+    const perMetre = 0.5 * scaleOf()[0] * view.clientWidth;
+    const most = (0.2 * view.clientWidth) / perMetre, power = 10 ** Math.floor(Math.log10(most));
+    const length = power * [5, 2, 1].find((step) => step * power <= most);
+    $("bar").style.width = `${length * perMetre}px`;
+    $("length").textContent = number(length, "m");
   };
   const legend = () => {
     const chosen = bed.quantities.find((q) => q.key === quantity);
@@ -320,7 +332,7 @@
   const SECONDS = Math.max(6, Math.min(20, LAST / 8));
   $("frame").max = String(LAST);
   for (const { key, name } of bed.quantities) $("colour").add(new Option(name, key));
-  $("frame").addEventListener("input", () => { play(false); now = Number($("frame").value); redraw(); });
+  $("frame").addEventListener("input", () => { play(false); fresh = false; now = Number($("frame").value); redraw(); });
   $("colour").addEventListener("change", () => { quantity = $("colour").value; legend(); redraw(); });
   for (const id of ["cut", "bodies"]) $(id).addEventListener("input", redraw);
   $("reset").addEventListener("click", () => { eye = { ...START }; $("cut").value = "0"; redraw(); });
@@ -338,7 +350,8 @@
     playing = on;
     $("play").textContent = on ? "Pause" : "Play";
     if (!on) return;
-    if (now >= LAST) now = 0;
+    if (fresh || now >= LAST) now = 0;
+    fresh = false;
     clock = null;
     requestAnimationFrame(run);
   };
