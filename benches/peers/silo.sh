@@ -4,7 +4,7 @@
 #
 #   benches/peers.sh --silo [SCENE]
 #
-# LIGGGHTS is $IMPACTLAW_LIGGGHTS, $LIGGGHTS or `liggghts` in PATH, YADE $IMPACTLAW_YADE or `yade`; what is missing is said.
+# Ours is $IMPACTLAW or built, LIGGGHTS is $IMPACTLAW_LIGGGHTS, $LIGGGHTS or `liggghts` in PATH, YADE $IMPACTLAW_YADE or `yade`; what is missing is said.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 scene=${1:-cases/bed-hopper.toml}
@@ -24,7 +24,7 @@ sides=$(number sides)
 friction=$(number friction)
 
 # ours, with a dump, whose first frame the others start from
-build=$(cargo build --release --message-format=json 2>/dev/null | grep -o '"executable":"[^"]*impactlaw"' | tail -1 | cut -d'"' -f4)
+build=${IMPACTLAW:-$(cargo build --release --message-format=json 2>/dev/null | grep -o '"executable":"[^"]*impactlaw"' | tail -1 | cut -d'"' -f4)}
 sed 's/^\[output\]/[output]\ndump = true/' "$scene" >"$folder/silo.toml"
 "$build" bed "$folder/silo.toml" -o "$folder" >"$folder/impactlaw.log"
 awk -v box="$box" '
@@ -47,7 +47,16 @@ band() { # two radii and two heights: triangles between two rings
 }
 band "$wide" 0.06 "$wide" 0.22 >"$folder/tube.stl"
 band "$narrow" 0.06 "$wide" 0.06 >"$folder/floor.stl"
-band 1e-4 0.0599999 0.015 0.0599999 >"$folder/gate.stl"
+# the gate under the orifice: a square
+awk -v c="$axis" 'BEGIN {g = 0.015; z = 0.0599999; print "solid gate"
+    for (k = 0; k < 2; k++) {
+        print "facet normal 0 0 1\nouter loop"
+        printf "vertex %g %g %.7f\n", c - g, c - g, z
+        printf "vertex %g %g %.7f\n", c + g, c + (k ? g : -g), z
+        printf "vertex %g %g %.7f\n", c + (k ? -g : g), c + g, z
+        print "endloop\nendfacet"
+    }
+    print "endsolid gate"}' >"$folder/gate.stl"
 cp benches/peers/silo.in benches/peers/silo.py "$folder"
 cd "$folder"
 
@@ -60,13 +69,24 @@ rate() { # rows of time, mass below the orifice, mass in a region of the filling
             w = tm / tt
             printf "%10.1f g/s %12.0f kg/m3 %10.3f\n", 1000 * w, bulk, w / (bulk * sqrt(9.81) * (2 * o - 1.4 * d) ^ 2.5)}'
 }
+follow() { # name, command: its rate, or why there is none
+    local name=$1
+    shift
+    if "$@" >"$name.log" 2>&1; then
+        printf '%-12s ' "$name"
+        awk 'NF == 5 && $1 ~ /^[0-9]+$/ {$1 *= 1.5e-5; print}' "$name.log" | rate
+    else
+        echo "$name failed:"
+        tail -3 "$name.log"
+    fi
+}
 # the region of the scene in which the bulk density is taken
 inner=$(awk -v n="$(grep -o 'filling = .*' "$folder/silo.toml" | grep -o 'radius = "[0-9.]*' | grep -o '[0-9.]*$')" 'BEGIN {print n / 1000}')
 high=$(awk -v n="$(grep -o 'filling = .*' "$folder/silo.toml" | grep -o 'height = "[0-9.]*' | grep -o '[0-9.]*$')" 'BEGIN {print n / 1000}')
 region=$(awk -v r="$inner" -v h="$high" 'BEGIN {print 3.141592653589793 * r * r * h}')
 printf '%-12s %14s %18s %10s\n' code 'mass flow' 'bulk density' C
 printf '%-12s ' impactlaw
-awk '/mass flow  / {w = $4 * ($5 == "kg/s" ? 1000 : 1)} /bulk density/ {b = $4 * ($5 ~ /^k/ ? 1 : 1)} /C of this flow/ {c = $6}
+awk '$2 == "mass" && $3 == "flow" {w = $4} $2 == "bulk" {b = $4} $2 == "C" {c = $6}
     END {printf "%10.1f g/s %12.0f kg/m3 %10.3f\n", w, b, c}' impactlaw.log
 # restitution: 0.7 with no pull at the end of a contact is 0.6792 in LIGGGHTS' formula
 settings="axis=$axis box=$box inner=$inner high=$high mu=$friction"
@@ -74,17 +94,13 @@ liggghts=${IMPACTLAW_LIGGGHTS:-${LIGGGHTS:-$(command -v liggghts || true)}}
 if [ -n "$liggghts" ]; then
     words=()
     for setting in $settings; do words+=(-var "${setting%%=*}" "${setting##*=}"); done
-    "$liggghts" -in silo.in "${words[@]}" >liggghts.log || tail -3 liggghts.log
-    printf '%-12s ' liggghts
-    awk 'NF == 5 && $1 ~ /^[0-9]+$/ {$1 *= 1.5e-5; print}' liggghts.log | rate
+    follow liggghts "$liggghts" -in silo.in "${words[@]}"
 else
     echo "!! SKIPPED liggghts: not installed (apt install liggghts)"
 fi
 yade=${IMPACTLAW_YADE:-$(command -v yade || true)}
 if [ -n "$yade" ]; then
-    env $settings "$yade" -n -x -j1 silo.py >yade.log 2>&1 || tail -3 yade.log
-    printf '%-12s ' yade
-    awk 'NF == 5 && $1 ~ /^[0-9]+$/ {$1 *= 1.5e-5; print}' yade.log | rate
+    follow yade env $settings "$yade" -n -x -j1 silo.py
 else
     echo "!! SKIPPED yade: not installed (apt install yade)"
 fi

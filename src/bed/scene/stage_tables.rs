@@ -55,6 +55,7 @@ keys! {
         }
         Compress as "compress" "Lowers the piston of the box." {
             speed: key("of the piston", "> 0", "'0.5 m/s'"),
+            approach: key("speed of the piston without resistance; falls to `speed` as its stress comes up to `seating_stress`", "≥ `speed`", "'0.5 m/s'").or("`speed`"),
             seating_stress: key("stress from which strain counts", "> 0", "'50 kPa'"),
             seating_travel: key("travel over which that stress must be sustained", "> 0", "'125 um'").or("none"),
             strain: key("strain at which the stage ends", "(0, 0.2]", "0.035"),
