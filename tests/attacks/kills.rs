@@ -1,9 +1,10 @@
 //! Runs killed at any time end with the bytes of those that were not; a folder has one writer; a full device is no crash.
 
-use crate::program::message;
+use crate::program::{message, program};
 use crate::runs::{Kept, assert_same, files};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
+use std::io::Write;
 use std::path::Path;
 use std::process::{Child, Stdio};
 use std::time::{Duration, Instant};
@@ -124,6 +125,39 @@ fn a_killed_process_leaves_a_folder_to_the_next_which_sweeps_it() {
         assert!(!name.starts_with('.') && !name.ends_with(".bin"), "{name}");
     }
 }
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_file_name_that_is_no_text_and_a_pipe_are_ordinary_input() {
+    use std::os::unix::ffi::OsStrExt;
+    let folder = tempfile::tempdir().unwrap();
+    let plan = |input: &std::ffi::OsStr, text: &str| {
+        let mut command = program(folder.path());
+        command.arg("plan").arg(input).stdin(Stdio::piped());
+        command.stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child = command.spawn().unwrap();
+        // one that does not read its input is gone before it is there
+        let _ = child.stdin.take().unwrap().write_all(text.as_bytes());
+        let output = child.wait_with_output().unwrap();
+        (output.status.code(), message(&output))
+    };
+    let name = std::ffi::OsStr::from_bytes(b"a\xff.toml");
+    let (code, said) = plan(name, "");
+    assert_eq!(code, Some(2), "{said}");
+    std::fs::write(folder.path().join(name), CASE_ALONE).unwrap();
+    assert_eq!(plan(name, "").0, Some(0));
+    assert_eq!(plan("/dev/stdin".as_ref(), CASE_ALONE).0, Some(0));
+    let (code, said) = plan("/dev/stdin".as_ref(), "[particle]\nradius = \"0 um\"\n");
+    assert_eq!(code, Some(2), "{said}");
+    assert!(
+        said.contains("/dev/stdin") && !said.contains("panicked"),
+        "{said}"
+    );
+}
+
+/// A case that names no bed.
+const CASE_ALONE: &str = "[particle]\nradius = \"250 um\"\n[material]\ndensity = \"8000 kg/m3\"\nyoung_modulus = \"100 GPa\"\n\
+    poisson_ratio = 0.35\nyield_strength = \"1.25 GPa\"\n[impact]\nvelocities = [\"10 m/s\"]\n[accuracy]\ntolerance = 0.1\n";
 
 #[cfg(target_os = "linux")]
 #[test]

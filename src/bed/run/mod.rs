@@ -122,10 +122,11 @@ pub fn run_scene(scene: &Scene, given: Option<&LawFile>, options: &Options) -> R
     write_picture(&picture, &portraits)?;
     // all is written: what an interrupted call would have gone on from is not needed any more
     for run in packing.iter().chain(&runs) {
-        run.record.discard();
+        // the checkpoint first: what goes on from it needs its frames
         if let Some(checkpoint) = checkpoint(&run.law, options) {
             Keeper::new(&checkpoint, "").forget();
         }
+        run.record.discard();
     }
     Ok(BedReport {
         packing,
