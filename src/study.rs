@@ -294,7 +294,7 @@ pub fn group(case: &Case) -> String {
         .first()
         .map_or(0.0, |v| density * v * v / young_modulus);
     format!(
-        "{flow}_rhoV2E{speed:.8e}_nu{poisson_ratio}_angle{angle:.8e}_mu{friction}_tol{tolerance}"
+        "{flow}_rhoV2E{speed:.8e}_nu{poisson_ratio:e}_angle{angle:.8e}_mu{friction:e}_tol{tolerance:e}"
     )
 }
 
