@@ -1,9 +1,14 @@
 //! Fast and free bodies: the time step follows what moves, what no law can follow is refused, and bodies that would meet
 //! bodies stop the run by name.
 
+use crate::collisions::{MATERIAL, RADIUS, bed, empty, smooth};
 use crate::scene_run::quiet;
 use impactlaw::bed::run::{BedReport, run_scene};
 use impactlaw::bed::scene::Scene;
+use impactlaw::contact::pair::{Alike, Flat};
+use impactlaw::dem::grains::Grains;
+use impactlaw::theory::hertz::Hertz;
+use parry3d::math::Vector;
 use std::path::Path;
 
 const HEAD: &str = r#"seed = 1
@@ -206,5 +211,65 @@ fn a_free_body_that_leaves_the_room_is_counted_and_reported() {
             .any(|w| w.contains("free bodies were outside")),
         "{:?}",
         summary.warnings
+    );
+}
+
+#[test]
+fn grains_too_fast_for_any_contact_law_are_refused_with_the_largest_speed() {
+    let fast = CLOUD.replace(
+        "radius = \"2 mm\"\n",
+        "radius = \"2 mm\"\nvelocity = [\"40 m/s\", \"0 m/s\", \"0 m/s\"]\n",
+    );
+    let says = error(&format!("{HEAD}{fast}{}", stage("1 ms")));
+    for say in ["grains.velocity", "40 m/s", "33 m/s", "flattened"] {
+        assert!(says.contains(say), "{say:?} is not in: {says}");
+    }
+}
+
+#[test]
+fn a_region_beyond_the_walls_or_the_domain_is_refused_with_both_extents() {
+    let beyond = LAYER.replace("low = [\"0 mm\", \"0 mm\"", "low = [\"0 mm\", \"-3 mm\"");
+    let says = error(&format!("{HEAD}{beyond}{}", stage("1 ms")));
+    for say in [
+        "grains.region",
+        "`[box]`",
+        "-3.000 to 20.000 mm along y",
+        "0.000 to 20.000",
+    ] {
+        assert!(says.contains(say), "{say:?} is not in: {says}");
+    }
+    // below the floor; above the rim a box is open
+    let below = LAYER.replace("\"0 mm\"], high", "\"-1 mm\"], high");
+    assert!(error(&format!("{HEAD}{below}{}", stage("1 ms"))).contains("along z"));
+    let above = LAYER.replace(
+        "low = [\"0 mm\", \"0 mm\", \"0 mm\"], high = [\"20 mm\", \"20 mm\", \"4 mm\"]",
+        "low = [\"0 mm\", \"0 mm\", \"42 mm\"], high = [\"20 mm\", \"20 mm\", \"46 mm\"]",
+    );
+    assert!(run(&format!("{HEAD}{above}{}", stage("0.1 ms"))).is_ok());
+    let outside = CLOUD.replace("high = [\"4 m\", \"1 m\"", "high = [\"30 mm\", \"1 m\"");
+    let says = error(&format!("{HEAD}{outside}{}", stage("1 ms")));
+    assert!(
+        says.contains("`[domain]`") && says.contains("along x"),
+        "{says}"
+    );
+}
+
+#[test]
+fn what_moves_by_a_radius_in_one_step_stops_the_run() {
+    let law = Hertz::of(&MATERIAL);
+    let thrown = |ways: f64| {
+        let mut grains = Grains::default();
+        grains.add(Vector::ZERO, RADIUS, MATERIAL.density);
+        grains.motions[0].velocity = Vector::new(1.0, 0.0, 0.0);
+        let dt = ways * RADIUS;
+        let mut bed = bed(smooth(), Alike(law), Flat(law), grains, empty(), dt);
+        (0..5).try_for_each(|_| bed.step())
+    };
+    // neighbours are listed up to a radius away: half of that and a radius is what is caught
+    assert!(thrown(1.0).is_ok());
+    let says = thrown(1.6).unwrap_err().to_string();
+    assert!(
+        says.contains("in one step by more than the radius"),
+        "{says}"
     );
 }

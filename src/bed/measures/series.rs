@@ -228,6 +228,12 @@ impl View<'_> {
 }
 
 impl Row {
+    /// Energy that has gone through the bed, J: what moves, what contacts hold and what was dissipated.
+    #[must_use]
+    pub fn turnover(&self) -> f64 {
+        self.kinetic_j + self.elastic_j + self.springs_j + self.dissipated()
+    }
+
     /// Energy dissipated so far, J.
     #[must_use]
     pub fn dissipated(&self) -> f64 {
@@ -253,15 +259,31 @@ pub fn write(path: &Path, provenance: &str, rows: &[Row]) -> Result<()> {
 /// Largest closure of its account a run may show.
 pub const CLOSURE: f64 = 0.01;
 
+/// Imbalance over the largest turnover so far at which a run is stopped: what follows would tell nothing.
+pub const HOPELESS: f64 = 0.1;
+
+/// Share of the energy in gravity below which an imbalance may be rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// First row of a series whose imbalance is beyond `bound` of the largest turnover up to it.
+#[must_use]
+pub fn first_beyond(rows: &[Row], bound: f64) -> Option<&Row> {
+    let mut most = 0.0f64;
+    rows.iter().find(|row| {
+        most = most.max(row.turnover());
+        let rounding = ROUNDING * row.potential_j.abs();
+        !(row.imbalance_j.abs() <= (bound * most).max(rounding))
+    })
+}
+
 /// Largest imbalance over the largest turnover of energy in a series: the closure of its account.
 #[must_use]
 pub fn closure(rows: &[Row]) -> f64 {
-    let turnover = |row: &Row| row.kinetic_j + row.elastic_j + row.springs_j + row.dissipated();
     let worst = rows
         .iter()
         .fold(0.0f64, |worst, row| worst.max(row.imbalance_j.abs()));
     let most = rows
         .iter()
-        .fold(0.0f64, |most, row| most.max(turnover(row)));
+        .fold(0.0f64, |most, row| most.max(row.turnover()));
     if most > 0.0 { worst / most } else { worst }
 }

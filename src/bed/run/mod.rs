@@ -10,7 +10,7 @@ use crate::bed::filling::drain::Drain;
 use crate::bed::filling::{check_bodies, insert};
 use crate::bed::measures::gauge::finding;
 use crate::bed::measures::oedometer;
-use crate::bed::measures::series::{self, CLOSURE, Row};
+use crate::bed::measures::series::{self, CLOSURE, HOPELESS, Row};
 use crate::bed::record::Record;
 use crate::bed::record::oedometer as side_by_side;
 use crate::bed::record::summary::{Counts, Summary};
@@ -29,6 +29,7 @@ use crate::dem::grains::Grains;
 use crate::law::{AnyLaw, LawFile};
 use crate::tape::{Checkpoint, Keeper, TakenUp, VERSION};
 use crate::theory::Theory;
+use crate::unit::engineering;
 use crate::{Error, Result};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -398,8 +399,18 @@ fn warnings(run: &Done) -> Vec<String> {
     }
     let closure = series::closure(&run.rows);
     if !(closure < CLOSURE) {
+        let stopped = series::first_beyond(&run.rows, HOPELESS);
+        let first = stopped.or_else(|| series::first_beyond(&run.rows, CLOSURE));
+        let place = first.map_or(String::new(), |row| {
+            let time = engineering(row.time_s, "s", 3);
+            let what = match stopped {
+                Some(_) => "the run was stopped",
+                None => "that much first",
+            };
+            format!(" ({what} at {time}, in \"{}\")", row.stage)
+        });
         warnings.push(format!(
-            "the energy account is off by {:.1} % of the turnover ({:.0} % at most): the run has failed; take more steps a contact \
+            "the energy account is off by {:.1} % of the turnover{place}, {:.0} % at most: the run has failed; take more steps a contact \
              (`time.steps_per_contact`, `time.rayleigh_fraction`)",
             100.0 * closure,
             100.0 * CLOSURE

@@ -7,7 +7,7 @@ use self::time_step::Limits;
 use crate::bed::filling::drain::Drain;
 use crate::bed::filling::feed::Feed;
 use crate::bed::measures::gauge::Gauge;
-use crate::bed::measures::series::{Left, Progress, Row, View};
+use crate::bed::measures::series::{HOPELESS, Left, Progress, Row, View, first_beyond};
 use crate::bed::scene::{Measure, Scene, Stage};
 use crate::dem::bodies::enclosure::{PISTON, Room};
 use crate::dem::dynamics::any::AnyBed;
@@ -230,6 +230,9 @@ impl<'a> Run<'a> {
     pub fn stages(&mut self, stages: &[&Stage]) -> Result<()> {
         while let Some(stage) = stages.get(self.ended) {
             self.stage(stage)?;
+            if self.is_hopeless() {
+                break;
+            }
             self.observer.stage_ended(self.bed.as_ref(), stage);
             self.ended += 1;
         }
@@ -249,6 +252,11 @@ impl<'a> Run<'a> {
         kept
     }
 
+    /// Whether the account of energies is so far off that the run stops at its last row; a warning says so.
+    fn is_hopeless(&self) -> bool {
+        first_beyond(&self.rows, HOPELESS).is_some()
+    }
+
     /// Runs one stage to its end.
     ///
     /// # Errors
@@ -264,7 +272,11 @@ impl<'a> Run<'a> {
             for gauge in &mut self.gauges {
                 gauge.read(self.bed.as_ref(), survey.is_some());
             }
+            let rows = self.rows.len();
             self.sample(stage)?;
+            if self.rows.len() > rows && self.is_hopeless() {
+                return Ok(());
+            }
             if self.ends(stage, survey.as_ref())? {
                 self.place.begun = false;
                 self.end(stage);

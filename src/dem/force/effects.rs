@@ -107,6 +107,16 @@ impl Contact<'_> {
         self.passing - turning.cross(m.middle)
     }
 
+    /// Power (W) of the force across the normal of the step before at this `slip` (m/s).
+    #[inline(always)]
+    #[must_use]
+    pub fn past_power(&self, slip: Vector) -> f64 {
+        let (force, normal, middle) = (self.before.force, self.meeting.normal, self.middle);
+        // the normal was the present one reflected, and the slip is across the middle of both
+        let normal_force = 2.0 * middle.dot(normal) * force.dot(middle) - force.dot(normal);
+        force.dot(slip) + normal_force * normal.dot(slip)
+    }
+
     /// A vector across the normal of the step before, turned with the contact: as the normal has turned, and about it by what
     /// both bodies turned in the mean.
     ///

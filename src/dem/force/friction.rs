@@ -125,7 +125,7 @@ impl Effect for Mindlin {
             if size > limit * limit {
                 force *= limit / size.sqrt();
             }
-            let spent = -0.5 * m.dt * (contact.turned(contact.before.force) + force).dot(slip);
+            let spent = -0.5 * m.dt * (contact.past_power(slip) + force.dot(slip));
             losses.damping += spent - slide.work;
         }
         contact.across += force;
