@@ -13,7 +13,7 @@ const UPPER: f64 = 0.5;
 
 /// Constrained modulus (Pa) that a random packing of elastic spheres has at the axial `stress` (Pa) if all of it strains alike.
 ///
-/// $$ \sigma = \frac{\phi Z E^\ast}{3 \pi} \epsilon^{3/2}, \qquad M = \frac{d\sigma}{d\epsilon}
+/// $$ \sigma = \frac{\phi Z E^\ast}{3 \pi} \varepsilon^{3/2}, \qquad M = \frac{d\sigma}{d\varepsilon}
 ///    = \frac{3}{2} \left(\frac{\phi Z E^\ast}{3 \pi}\right)^{2/3} \sigma^{1/3} $$
 ///
 /// | symbol | argument | unit | meaning |
@@ -57,6 +57,12 @@ impl Branch<'_> {
         self.rows
             .iter()
             .fold(0.0, |peak, row| peak.max(row.stress_pa))
+    }
+
+    /// Stresses (Pa) between which it goes beyond the largest one before (`most`, Pa), in its upper part.
+    fn virgin(&self, most: f64) -> [f64; 2] {
+        let peak = self.peak();
+        [most.max(UPPER * peak), peak]
     }
 
     /// Rows whose stress lies between two, Pa.
@@ -153,44 +159,37 @@ pub fn findings(rows: &[Row], material: &Material, yields: bool) -> Vec<Finding>
     let Some(last) = branches.iter().rposition(|branch| branch.loads) else {
         return Vec::new();
     };
-    let before = branches[..last]
-        .iter()
-        .map(Branch::peak)
-        .fold(0.0, f64::max);
-    let peak = branches[last].peak();
+    let (before, last) = (&branches[..last], &branches[last]);
+    let most = before.iter().map(Branch::peak).fold(0.0, f64::max);
+    let mut found = stiffness(before, last, most);
+    found.extend(at_the_top(last, most, material, yields));
+    found.extend(quality(&branches, last));
+    found
+}
+
+/// Two stresses in words.
+fn range(low: f64, high: f64) -> String {
+    let [low, high] = [low, high].map(|stress| engineering(stress, "Pa", 3));
+    format!("{low} to {high}")
+}
+
+/// Moduli and indices: of the loading beyond the largest stress before (`most`, Pa), of letting go, of loading up to it again.
+fn stiffness(before: &[Branch], last: &Branch, most: f64) -> Vec<Finding> {
     let mut found = Vec::new();
-    let mut tell = |name: &'static str, value: Option<f64>, unit: &'static str, note: String| {
-        if let Some(value) = value {
-            found.push(finding(name, value, unit, note));
-        }
+    let mut tell = |name, value: Option<f64>, unit, note: String| {
+        found.extend(value.map(|value| finding(name, value, unit, note)));
     };
-    let virgin = branches[last].between(before.max(UPPER * peak), peak);
-    let range = |low: f64, high: f64| {
-        let [low, high] = [low, high].map(|stress| engineering(stress, "Pa", 3));
-        format!("{low} to {high}")
-    };
-    let loading = modulus(&virgin);
-    tell(
-        "constrained modulus",
-        loading,
-        "Pa",
-        format!("loading, {}", range(before.max(UPPER * peak), peak)),
-    );
-    tell(
-        "compression index",
-        index(&virgin),
-        "",
-        "fall of the void ratio over a tenfold stress, same rows".to_owned(),
-    );
-    if let Some(unload) = branches.iter().find(|branch| !branch.loads) {
+    let [low, peak] = last.virgin(most);
+    let rows = last.between(low, peak);
+    let note = format!("loading, {}", range(low, peak));
+    tell("constrained modulus", modulus(&rows), "Pa", note);
+    let note = "fall of the void ratio over a tenfold stress, same rows";
+    tell("compression index", index(&rows), "", note.to_owned());
+    if let Some(unload) = before.iter().find(|branch| !branch.loads) {
         let high = unload.peak();
         let rows = unload.between(UPPER * high, high);
-        tell(
-            "unloading modulus",
-            modulus(&rows),
-            "Pa",
-            range(UPPER * high, high),
-        );
+        let note = range(UPPER * high, high);
+        tell("unloading modulus", modulus(&rows), "Pa", note);
         tell(
             "swelling index",
             index(&rows),
@@ -198,69 +197,76 @@ pub fn findings(rows: &[Row], material: &Material, yields: bool) -> Vec<Finding>
             "of the same rows".to_owned(),
         );
     }
-    if before > 0.0 {
-        let rows = branches[last].between(UPPER * before, before);
-        tell(
-            "reloading modulus",
-            modulus(&rows),
-            "Pa",
-            range(UPPER * before, before),
-        );
+    if most > 0.0 {
+        let rows = last.between(UPPER * most, most);
+        let note = range(UPPER * most, most);
+        tell("reloading modulus", modulus(&rows), "Pa", note);
     }
-    let top = branches[last]
-        .rows
-        .iter()
-        .max_by(|a, b| a.stress_pa.total_cmp(&b.stress_pa));
-    if let Some(top) = top.filter(|row| row.stress_pa > 0.0) {
-        let sideways = top.lateral_stress_pa / top.stress_pa;
-        tell(
-            "lateral stress ratio",
-            Some(sideways),
-            "",
-            "walls over piston at the largest stress".to_owned(),
-        );
-        let middle = 0.5 * (before.max(UPPER * peak) + peak);
-        let contact = 0.5 * material.contact_modulus();
-        let elastic = elastic_modulus(top.solid_fraction, top.coordination, contact, middle);
-        let over = |estimate: f64| loading.map_or(f64::NAN, |own| own / estimate);
-        let note = format!(
-            "elastic, all strains alike: an upper bound; this bed has {:.2} of it",
-            over(elastic)
-        );
-        tell("modulus of Walton", Some(elastic), "Pa", note);
-        if let Some(flow) = material.flow.filter(|_| yields) {
-            let plastic =
-                plastic_modulus(top.solid_fraction, top.coordination, flow.yield_strength());
-            let note = format!(
-                "every contact fully plastic: an upper bound; this bed has {:.2} of it",
-                over(plastic)
-            );
-            tell("plastic modulus", Some(plastic), "Pa", note);
-        }
-    }
-    let counted = branches
-        .iter()
-        .filter(|branch| branch.loads)
-        .flat_map(|branch| branch.rows);
-    let inertial = counted.map(|row| row.inertial_number).fold(0.0, f64::max);
-    tell(
-        "largest inertial number",
-        Some(inertial),
-        "",
-        "while loading strain counts; quasi-static up to 1e-3".to_owned(),
-    );
-    let rise = branches[0].rows[0].coordination;
-    let reached = branches[last]
-        .rows
-        .last()
-        .map_or(0.0, |row| row.coordination);
-    tell(
-        "contacts per grain",
-        Some(reached),
-        "",
-        format!("at the largest strain; {rise:.2} as strain begins to count"),
-    );
     found
+}
+
+/// What is true at the largest stress: the ratio of the stresses, and the moduli that theory bounds a packing like this by.
+fn at_the_top(last: &Branch, most: f64, material: &Material, yields: bool) -> Vec<Finding> {
+    let top = last.rows.iter();
+    let top = top.max_by(|a, b| a.stress_pa.total_cmp(&b.stress_pa));
+    let Some(top) = top.filter(|row| row.stress_pa > 0.0) else {
+        return Vec::new();
+    };
+    let [low, peak] = last.virgin(most);
+    let own = modulus(&last.between(low, peak)).unwrap_or(f64::NAN);
+    let bound = |name: &str, what: &str, estimate: f64| {
+        let share = own / estimate;
+        let note = format!("{what}; this bed has {share:.2} of it");
+        finding(name, estimate, "Pa", note)
+    };
+    let (phi, z) = (top.solid_fraction, top.coordination);
+    let contact = 0.5 * material.contact_modulus();
+    let elastic = elastic_modulus(phi, z, contact, 0.5 * (low + peak));
+    let ratio = top.lateral_stress_pa / top.stress_pa;
+    let mut found = vec![
+        finding(
+            "lateral stress ratio",
+            ratio,
+            "",
+            "walls over piston at the largest stress",
+        ),
+        bound(
+            "modulus of Walton",
+            "elastic, all grains strained alike: an upper bound",
+            elastic,
+        ),
+    ];
+    if let Some(flow) = material.flow.filter(|_| yields) {
+        let plastic = plastic_modulus(phi, z, flow.yield_strength());
+        found.push(bound(
+            "plastic modulus",
+            "every contact fully plastic",
+            plastic,
+        ));
+    }
+    found
+}
+
+/// Whether the test was one: slow, and of a packing that comes to bear.
+fn quality(branches: &[Branch], last: &Branch) -> Vec<Finding> {
+    let loading = branches.iter().filter(|branch| branch.loads);
+    // loading again begins without a stress: only what lies above the seat counts
+    let seat = branches[0].rows[0].stress_pa;
+    let inertial = loading
+        .flat_map(|branch| branch.between(seat, f64::INFINITY))
+        .map(|row| row.inertial_number)
+        .fold(0.0, f64::max);
+    let note = "loading above the stress from which strain counts; quasi-static up to 1e-3";
+    let contacts = |row: Option<&Row>| row.map_or(0.0, |row| row.coordination);
+    let (first, reached) = (
+        contacts(branches[0].rows.first()),
+        contacts(last.rows.last()),
+    );
+    let rise = format!("at the largest strain; {first:.2} as strain begins to count");
+    vec![
+        finding("largest inertial number", inertial, "", note),
+        finding("contacts per grain", reached, "", rise),
+    ]
 }
 
 #[cfg(test)]
