@@ -219,6 +219,74 @@ impl Case {
         Ok(case)
     }
 
+    /// A case without a file: a sphere of `radius` (m) of `material`, at `velocities` (m/s), to `tolerance`.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for a value that a case file would not be allowed either.
+    pub fn of(
+        name: &str,
+        radius: f64,
+        material: Material,
+        velocities: &[f64],
+        tolerance: f64,
+    ) -> Result<Self> {
+        let positive = |value: &f64| value.is_finite() && *value > 0.0;
+        let refuse = |argument: &str, found: String, allowed: &str| Error::Argument {
+            argument: argument.to_owned(),
+            found,
+            allowed: allowed.to_owned(),
+        };
+        let Material {
+            density,
+            young_modulus,
+            poisson_ratio,
+            flow,
+        } = material;
+        for (what, value) in [
+            ("radius", radius),
+            ("density", density),
+            ("young_modulus", young_modulus),
+        ] {
+            if !positive(&value) {
+                return Err(refuse(what, value.to_string(), "must be positive"));
+            }
+        }
+        if !(0.0..0.5).contains(&poisson_ratio) {
+            let found = poisson_ratio.to_string();
+            return Err(refuse("poisson_ratio", found, "must lie in [0, 0.5)"));
+        }
+        for (constant, value) in flow.iter().flat_map(|flow| flow.constants()) {
+            if !constant.range.holds(value, young_modulus) {
+                let allowed = constant.range.rule(young_modulus);
+                return Err(refuse(constant.key, value.to_string(), &allowed));
+            }
+        }
+        let mut velocities = velocities.to_vec();
+        velocities.sort_by(f64::total_cmp);
+        velocities.dedup();
+        if velocities.is_empty() || !velocities.iter().all(positive) {
+            let found = format!("{velocities:?}");
+            let allowed = "must hold at least one speed, all of them positive";
+            return Err(refuse("velocities", found, allowed));
+        }
+        if !(tolerance > 0.0 && tolerance <= 0.2) {
+            let found = tolerance.to_string();
+            return Err(refuse("tolerance", found, "must lie in (0, 0.2]"));
+        }
+        Ok(Case {
+            name: name.to_owned(),
+            path: PathBuf::from(name),
+            hash: "0".repeat(64),
+            radius,
+            material,
+            velocities,
+            angle: 0.0,
+            friction: 0.0,
+            tolerance,
+            bed: None,
+        })
+    }
+
     /// The case with the speeds of `--velocity`, when any are given.
     ///
     /// # Errors

@@ -33,6 +33,7 @@ pub mod lanes;
 pub mod law;
 pub mod material;
 pub mod plan;
+pub mod prelude;
 pub mod report;
 pub mod scheme;
 pub mod space;

@@ -2,6 +2,7 @@
 
 use clap::{CommandFactory, Parser};
 use impactlaw::cli::Cli;
+use impactlaw::command::log::Tee;
 use impactlaw::command::{Context, Verdict, diagnostic};
 use impactlaw::{Error, Result};
 use std::io::{IsTerminal, Write};
@@ -11,9 +12,10 @@ use tracing::Level;
 fn main() -> ExitCode {
     let cli = Cli::parse();
     trace(&cli);
-    match start_threads(cli.threads)
-        .and_then(|()| cli.verb.run(&Context::of_process(cli.quiet, Cli::command)))
-    {
+    let context = Context::of_process(cli.quiet, Cli::command);
+    let outcome = start_threads(cli.threads).and_then(|()| cli.verb.run(&context));
+    context.log.close(&outcome);
+    match outcome {
         Ok(Verdict::Met) => ExitCode::SUCCESS,
         Ok(Verdict::Missed) => ExitCode::from(1),
         Err(error) => {
@@ -49,14 +51,15 @@ fn start_threads(threads: usize) -> Result<()> {
 /// What is said on stderr besides progress: warnings, with -v what stages do, with -vv solver detail.
 fn trace(cli: &Cli) {
     let level = match (cli.quiet, cli.verbose) {
-        (true, _) => Level::ERROR,
-        (_, 0) => Level::WARN,
+        // what is not said stands in the log all the same
+        (true, _) | (_, 0) => Level::WARN,
         (_, 1) => Level::INFO,
         _ => Level::DEBUG,
     };
+    let quiet = cli.quiet;
     tracing_subscriber::fmt()
         .with_max_level(level)
-        .with_writer(std::io::stderr)
+        .with_writer(move || Tee { quiet })
         .with_ansi(std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none())
         .with_target(false)
         // it would be told of on stderr, which is what could not be written, and panic

@@ -87,6 +87,7 @@ fn run_here(args: &BedRunArgs, context: &Context) -> Result<Verdict> {
     let law = args.law.as_deref().map(LawFile::read).transpose()?;
     let interval = interval(&args.checkpoint)?;
     let folder = output_folder(args.out.as_deref(), &scene.name)?;
+    context.open_log(&folder, "bed", &scene.hash);
     let report = simulate(&scene, law.as_ref(), &folder, args.seed, interval, context)?;
     let compressed = |stage: &Stage| matches!(stage, Stage::Compress { .. });
     let compresses = scene.stages.iter().any(compressed);

@@ -1,7 +1,7 @@
 //! `compare`: from impacts and a law file to `compare.csv` and `compare.md`.
 
 use super::fit::read_impacts;
-use super::{Command, Context, Verdict, check_writable};
+use super::{Command, Context, Verdict, check_writable, print_json};
 use crate::case::Case;
 use crate::compare::Comparison;
 use crate::contact::{LawVisitor, NormalLaw};
@@ -25,6 +25,9 @@ pub struct CompareArgs {
     /// Output folder (default: the impacts' folder).
     #[arg(short, long)]
     pub out: Option<PathBuf>,
+    /// Print as JSON.
+    #[arg(long)]
+    pub json: bool,
 }
 
 impl Command for CompareArgs {
@@ -62,7 +65,10 @@ impl Command for CompareArgs {
         add_fitted(&mut comparison, &file)?;
         comparison.add_theories();
         write(&comparison, &out, &context.provenance(&case.hash))?;
-        context.say(&comparison.summary_markdown())?;
+        match self.json {
+            true => print_json(comparison.rows())?,
+            false => context.say(&comparison.summary_markdown())?,
+        }
         Ok(Verdict::Met)
     }
 }

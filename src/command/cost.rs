@@ -1,6 +1,6 @@
 //! Cost command: runs the ladders of a case one after the other and shows error against time; finished runs are kept.
 
-use super::{Command, Context, Verdict, output_folder, print};
+use super::{Command, Context, Verdict, output_folder, print, print_json};
 use crate::case::Case;
 use crate::cost::accuracy;
 use crate::cost::thesis::{self, Comparison};
@@ -39,6 +39,9 @@ pub struct CostArgs {
     /// Output folder (default: `out/<case name>`); files go to `cost` in it, and finished runs are kept there.
     #[arg(short, long)]
     pub out: Option<PathBuf>,
+    /// Print as JSON.
+    #[arg(long)]
+    pub json: bool,
 }
 
 impl Command for CostArgs {
@@ -79,7 +82,10 @@ impl Command for CostArgs {
         let text = accuracy::markdown(&lines);
         let markdown = format!("<!-- {provenance} -->\n{text}");
         write_atomic(&out.join("cost_accuracy.md"), markdown.as_bytes())?;
-        context.say(&text)?;
+        match self.json {
+            true => print_json(&lines)?,
+            false => context.say(&text)?,
+        }
         Ok(Verdict::Met)
     }
 }

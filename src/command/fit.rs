@@ -1,6 +1,6 @@
 //! `fit`: from the impacts of a case to its law file.
 
-use super::{Command, Context, Verdict, check_writable, impact_folder};
+use super::{Command, Context, Verdict, check_writable, impact_folder, print_json};
 use crate::case::Case;
 use crate::curve::{Impact, Particle};
 use crate::document::Document;
@@ -22,6 +22,9 @@ pub struct FitArgs {
     /// Law file to write (default: `law.toml` in that folder).
     #[arg(short, long)]
     pub out: Option<PathBuf>,
+    /// Print as JSON.
+    #[arg(long)]
+    pub json: bool,
 }
 
 impl Command for FitArgs {
@@ -47,7 +50,10 @@ impl Command for FitArgs {
         check_writable(target.parent().unwrap_or(Path::new(".")))?;
         let file = LawFile::of(&fit(&case, &impacts)?, &case, PROGRAM);
         file.write(&target)?;
-        context.say(&table(&file, &target))?;
+        match self.json {
+            true => print_json(&file)?,
+            false => context.say(&table(&file, &target))?,
+        }
         Ok(verdict(&file))
     }
 }

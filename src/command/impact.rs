@@ -47,6 +47,10 @@ impl Command for ImpactArgs {
         let case = Case::read(&self.case)?.with_velocities(&self.velocity)?;
         let interval = interval(&self.checkpoint)?;
         let out = output_folder(self.out.as_deref(), &case.name)?;
+        context.open_log(&out, "impact", &case.hash);
+        context
+            .log
+            .note("plan", &super::plan::text(&case, &plans(&case)?));
         let all = impacts(&case, &out, interval, context)?;
         context.say(&findings(&all, &out))?;
         all.iter().try_for_each(check)?;

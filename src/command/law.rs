@@ -3,11 +3,11 @@
 use super::{Command, Context, Verdict, print};
 use crate::Result;
 use crate::contact::{LawVisitor, NormalLaw};
-use crate::files::row;
 use crate::law::LawFile;
 use crate::unit::{Length, argument};
 use crate::{Error, unit::Dimension};
 use clap::{Args, Subcommand};
+use serde::Serialize;
 use std::path::PathBuf;
 
 /// Work with a law file.
@@ -40,6 +40,9 @@ pub struct LawEvalArgs {
     /// Largest displacement reached before: the displacements lie on the unloading branch.
     #[arg(long)]
     pub max_displacement: Option<String>,
+    /// Print as JSON.
+    #[arg(long)]
+    pub json: bool,
 }
 
 impl Command for LawArgs {
@@ -56,6 +59,14 @@ impl Command for LawArgs {
             LawVerb::Eval(args) => eval(args),
         }
     }
+}
+
+/// A line of `law eval`. Field names are the CSV header (file contract).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+struct EvalRow {
+    displacement_m: f64,
+    #[serde(rename = "force_N")]
+    force_n: f64,
 }
 
 /// Print `displacement_m,force_N` of the rate-independent core (displacements alone tell no rate); a warning where the law is used outside the range of its impacts.
@@ -78,11 +89,12 @@ fn eval(args: &LawEvalArgs) -> Result<Verdict> {
             "{outside} of the displacements lie beyond {limit:e} m, the largest the law was fitted to"
         );
     }
-    let mut text = "displacement_m,force_N\n".to_owned();
-    for displacement in displacements {
-        let force = law.force(radius, displacement, most);
-        text.push_str(&row(&[displacement, force]));
-    }
+    let row = |displacement: f64| EvalRow {
+        displacement_m: displacement,
+        force_n: law.force(radius, displacement, most),
+    };
+    let rows: Vec<EvalRow> = displacements.into_iter().map(row).collect();
+    let text = super::theory::rows_text(args.json, &rows)?;
     print(&text)?;
     Ok(Verdict::Met)
 }

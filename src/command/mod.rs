@@ -13,7 +13,9 @@ pub mod export;
 pub mod fit;
 pub mod help;
 pub mod impact;
+pub mod init;
 pub mod law;
+pub mod log;
 pub mod man;
 pub mod plan;
 pub mod run;
@@ -28,6 +30,7 @@ use crate::{Error, Result};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// The arguments of a verb; their doc comment is its description in the help.
 pub trait Command: clap::Args {
@@ -84,6 +87,7 @@ verbs! {
     Cost(cost::CostArgs),
     Export(export::ExportArgs),
     Law(law::LawArgs),
+    Init(init::InitArgs),
     Units(units::UnitsArgs),
     Completions(completions::CompletionsArgs),
     Man(man::ManArgs),
@@ -100,6 +104,8 @@ pub struct Context {
     pub quiet: bool,
     /// The program's verbs and options, for what is written about them.
     pub program: fn() -> clap::Command,
+    /// Log of the run, written beside its results.
+    pub log: Arc<log::Log>,
 }
 
 /// How a command that ran to its end came out; the exit code.
@@ -126,6 +132,7 @@ impl Context {
             command,
             quiet,
             program,
+            log: Arc::default(),
         }
     }
 
@@ -137,6 +144,11 @@ impl Context {
             crate::PROGRAM,
             self.command
         )
+    }
+
+    /// Opens the log of `verb` in `folder`, once its input, whose hash is given, is good.
+    pub fn open_log(&self, folder: &Path, verb: &str, hash: &str) {
+        self.log.open(folder, verb, &self.command, hash);
     }
 
     /// Print what a verb found, which also stands in its files; nothing with `-q`.
@@ -238,6 +250,17 @@ pub fn print(text: &str) -> Result<()> {
         }
         _ => Ok(()),
     }
+}
+
+/// Print as JSON, one value a line of its own with indents.
+///
+/// # Errors
+/// As [`print()`].
+pub fn print_json<T: serde::Serialize + ?Sized>(value: &T) -> Result<()> {
+    let out = Path::new("standard output");
+    let text = serde_json::to_string_pretty(value);
+    let text = text.map_err(|error| Error::file("write", out)(error.into()))?;
+    print(&format!("{text}\n"))
 }
 
 /// Runs `work` on a thread of the pool, so that its parallel loops need no change of threads.

@@ -2,10 +2,11 @@
 
 use crate::Result;
 use crate::case::Case;
-use crate::command::{Command, Context, Verdict, print};
+use crate::command::{Command, Context, Verdict, print, print_json};
 use crate::plan::{Plan, plans};
 use crate::unit::engineering;
 use clap::Args;
+use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -17,6 +18,9 @@ pub struct PlanArgs {
     /// Speeds, overriding the case's, e.g. `--velocity "10 m/s"`.
     #[arg(long)]
     pub velocity: Vec<String>,
+    /// Print as JSON.
+    #[arg(long)]
+    pub json: bool,
 }
 
 impl Command for PlanArgs {
@@ -31,9 +35,40 @@ impl Command for PlanArgs {
     /// Those of reading and planning the case.
     fn run(&self, _context: &Context) -> Result<Verdict> {
         let case = Case::read(&self.case)?.with_velocities(&self.velocity)?;
-        print(&text(&case, &plans(&case)?))?;
+        let plans = plans(&case)?;
+        match self.json {
+            true => print_json(&json(&case, &plans))?,
+            false => print(&text(&case, &plans))?,
+        }
         Ok(Verdict::Met)
     }
+}
+
+/// The plan for programs: lengths in m, times in s.
+#[must_use]
+pub fn json(case: &Case, plans: &[Plan]) -> Value {
+    let radius = case.radius;
+    let one = |plan: &Plan| {
+        let effects = plan.effects.iter();
+        let effects: Vec<Value> = effects
+            .map(|effect| json!({ "name": effect.name, "on": effect.on, "reason": effect.reason }))
+            .collect();
+        json!({
+            "velocity_m_s": plan.velocity,
+            "expected_displacement_m": plan.estimate.displacement * radius,
+            "expected_contact_radius_m": plan.estimate.contact_radius * radius,
+            "degree": plan.grid.degree,
+            "points_per_direction": plan.grid.points_per_direction,
+            "finest_cell_m": plan.grid.fine * radius,
+            "coarsest_cell_m": plan.grid.coarse * radius,
+            "points": plan.points,
+            "steps": plan.steps,
+            "predicted_core_s": plan.seconds,
+            "effects": effects,
+        })
+    };
+    let all: Vec<Value> = plans.iter().map(one).collect();
+    json!({ "case": case.name, "tolerance": case.tolerance, "impacts": all })
 }
 
 /// The plan as a person reads it.

@@ -72,6 +72,10 @@ impl Command for RunArgs {
             .transpose()?;
         let out = output_folder(self.out.as_deref(), &case.name)?;
         super::fit::check_target(&out.join("law.toml"), &case)?;
+        context.open_log(&out, "run", &case.hash);
+        context
+            .log
+            .note("plan", &super::plan::text(&case, &plans(&case)?));
         let results = stages(&case, scene, &out, (self.seed, interval), context)?;
         let page = report(&document, &case, &results, &out, context, started)?;
         let worst = 100.0 * results.law.worst_error();

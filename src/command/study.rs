@@ -58,6 +58,7 @@ impl Command for StudyArgs {
             .try_for_each(|case| plans(case).map(drop))?;
         let interval = interval(&self.checkpoint)?;
         let out = output_folder(self.out.as_deref(), &study.name)?;
+        context.open_log(&out, "study", &study.hash);
         let runs = runs(&study, &out, interval, context)?;
         let rows: Vec<(usize, Summary)> = study
             .cases

@@ -58,6 +58,9 @@ pub struct TheoryArgs {
     /// Speeds with units; prints `velocity_m_s,restitution`.
     #[arg(long, num_args = 1.., value_delimiter = ',', conflicts_with = "displacements")]
     pub velocities: Vec<String>,
+    /// Print as JSON.
+    #[arg(long)]
+    pub json: bool,
 }
 
 impl Command for TheoryArgs {
@@ -120,8 +123,8 @@ pub fn list() -> String {
 /// As [`Command::run`], the case file apart.
 pub fn table(args: &TheoryArgs, case: &Case) -> Result<String> {
     match (args.displacements.is_empty(), args.velocities.is_empty()) {
-        (false, _) => csv_text(&force_rows(args, case)?),
-        (true, false) => csv_text(&restitution_rows(args, case)?),
+        (false, _) => rows_text(args.json, &force_rows(args, case)?),
+        (true, false) => rows_text(args.json, &restitution_rows(args, case)?),
         (true, true) => Err(Error::Argument {
             argument: "theory".to_owned(),
             found: "neither --displacements nor --velocities".to_owned(),
@@ -270,6 +273,20 @@ fn quantity<D: unit::Dimension>(name: &str, text: &str, positive: bool) -> Resul
         });
     }
     Ok(value)
+}
+
+/// Rows as CSV or, if wanted, as JSON.
+pub(super) fn rows_text<R: Serialize>(json: bool, rows: &[R]) -> Result<String> {
+    match json {
+        true => json_text(rows),
+        false => csv_text(rows),
+    }
+}
+
+fn json_text<R: Serialize>(rows: &[R]) -> Result<String> {
+    let text = serde_json::to_string_pretty(rows);
+    let text = text.map_err(|e| Error::file("write", Path::new("standard output"))(e.into()))?;
+    Ok(text + "\n")
 }
 
 fn csv_text<R: Serialize>(rows: &[R]) -> Result<String> {

@@ -122,6 +122,8 @@ fn walk(folder: &Path, found: &mut Vec<PathBuf>) {
         let path = entry.unwrap().path();
         match path.is_dir() {
             true => walk(&path, found),
+            // a log is times and the command line, and nothing reads it
+            false if path.extension().is_some_and(|end| end == "log") => {}
             false => found.push(path),
         }
     }

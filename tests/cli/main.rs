@@ -6,6 +6,7 @@ mod cost;
 mod guide;
 mod help;
 mod impact;
+mod init;
 mod killed;
 mod owner;
 #[path = "../support/program.rs"]

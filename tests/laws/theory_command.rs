@@ -17,6 +17,7 @@ fn args(
     let owned = |texts: &[&str]| texts.iter().map(|&text| text.to_owned()).collect();
     TheoryArgs {
         list: false,
+        json: false,
         model: Some(model.to_owned()),
         case: None,
         displacements: owned(displacements),

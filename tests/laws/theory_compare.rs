@@ -165,11 +165,13 @@ fn the_command_goes_from_impact_folders_and_a_law_file_to_both_files() {
         command: "impactlaw compare".to_owned(),
         quiet: true,
         program: Cli::command,
+        log: Default::default(),
     };
     let fit_args = FitArgs {
         case: case.clone(),
         impacts: Some(impacts.clone()),
         out: None,
+        json: false,
     };
     fit_args.run(&context).unwrap();
     let args = CompareArgs {
@@ -177,6 +179,7 @@ fn the_command_goes_from_impact_folders_and_a_law_file_to_both_files() {
         law: None,
         impacts: Some(impacts.clone()),
         out: None,
+        json: false,
     };
     args.run(&context).unwrap();
 
