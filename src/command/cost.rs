@@ -306,6 +306,7 @@ fn figure(rows: &[Row], name: String) -> Result<Figure> {
         role: Role::Law,
         mark: Mark::Line,
         points: front,
+        supported_to: None,
     }];
     for row in rows.iter().filter(good) {
         let point = (row.cpu_s, row.error);
@@ -321,6 +322,7 @@ fn figure(rows: &[Row], name: String) -> Result<Figure> {
                 role,
                 mark: Mark::Points,
                 points: vec![point],
+                supported_to: None,
             }),
         }
     }

@@ -155,7 +155,7 @@ fn report(
             .iter()
             .map(|impact| impact.summary.clone())
             .collect(),
-        curves: show::curves(case, &impacts, &laws)?,
+        curves: show::curves(case, &impacts, &laws, &results.comparison.ranking())?,
         maps: show::maps(&results.simulated)?,
         fit: Some(show::fit(&results.law)?),
         comparison: show::comparison(&results.comparison.markdown()),

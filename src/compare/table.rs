@@ -88,15 +88,30 @@ impl Comparison {
         }
     }
 
-    /// Markdown table of the laws over all speeds, best first.
-    #[must_use]
-    pub fn summary_markdown(&self) -> String {
+    /// Summaries over all speeds, best first.
+    fn summaries(&self) -> Vec<Summary> {
         let mut laws: Vec<Summary> = self
             .laws()
             .into_iter()
             .map(|law| self.summary(law))
             .collect();
         laws.sort_by(|a, b| a.score.total_cmp(&b.score));
+        laws
+    }
+
+    /// Names of the laws, the one with the smallest error over all speeds first.
+    #[must_use]
+    pub fn ranking(&self) -> Vec<&str> {
+        let mut laws = self.laws();
+        let score = |law: &str| self.summary(law).score;
+        laws.sort_by(|a, b| score(a).total_cmp(&score(b)));
+        laws
+    }
+
+    /// Markdown table of the laws over all speeds, best first.
+    #[must_use]
+    pub fn summary_markdown(&self) -> String {
+        let laws = self.summaries();
         let mut text = String::from(
             "| law | overall | F* | delta* | delta_res | e | contact time | RMSE loading | RMSE unloading |\n\
              |---|---|---|---|---|---|---|---|---|\n",

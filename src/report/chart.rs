@@ -28,6 +28,21 @@ pub struct Series {
     pub mark: Mark,
     /// Points (x, y) in SI units.
     pub points: Vec<(f64, f64)>,
+    /// Largest x that its source supports; beyond it a line is dotted. None: it states no end.
+    pub supported_to: Option<f64>,
+}
+
+/// A line of a legend.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Entry {
+    /// Name.
+    pub label: String,
+    /// How it is drawn.
+    pub ink: Ink,
+    /// Line or markers.
+    pub mark: Mark,
+    /// Whether a part of it is dotted.
+    pub extrapolated: bool,
 }
 
 /// Lines and markers over two axes.
@@ -53,27 +68,53 @@ type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 type Drawn<T = ()> = std::result::Result<T, Box<dyn std::error::Error>>;
 
 impl Chart {
-    /// The chart as an SVG document.
+    /// The chart with its legend beside it, as an SVG document.
     ///
     /// # Errors
     /// [`Error::Figure`] when it cannot be drawn.
     pub fn svg(&self) -> Result<String> {
+        self.drawing(WIDTH)
+    }
+
+    /// The chart without a legend, for pages that have one for several charts.
+    ///
+    /// # Errors
+    /// [`Error::Figure`] when it cannot be drawn.
+    pub fn bare(&self) -> Result<String> {
+        self.drawing(WIDTH - LEGEND)
+    }
+
+    /// The lines of its legend.
+    #[must_use]
+    pub fn legend(&self) -> Vec<Entry> {
+        let entry = |(series, ink): (&Series, Ink)| Entry {
+            label: series.label.clone(),
+            ink,
+            mark: series.mark,
+            extrapolated: series.is_extrapolated(),
+        };
+        self.series.iter().zip(self.inks()).map(entry).collect()
+    }
+
+    fn drawing(&self, width: f64) -> Result<String> {
         let mut svg = String::new();
-        self.draw(&mut svg).map_err(|error| Error::Figure {
+        self.draw(&mut svg, width).map_err(|error| Error::Figure {
             what: format!("{} over {}", self.y.label, self.x.label),
             reason: error.to_string(),
         })?;
-        Ok(on_page_size(&svg))
+        Ok(on_page_size(&svg, width))
     }
 
-    fn draw(&self, svg: &mut String) -> Drawn {
+    fn draw(&self, svg: &mut String, width: f64) -> Drawn {
         let root =
-            SVGBackend::with_string(svg, (px(WIDTH) as u32, px(HEIGHT) as u32)).into_drawing_area();
+            SVGBackend::with_string(svg, (px(width) as u32, px(HEIGHT) as u32)).into_drawing_area();
         root.fill(&WHITE)?;
         let (plot, legend) = root.split_horizontally(px(WIDTH - LEGEND));
         let inks = self.inks();
         self.draw_plot(&plot, &inks)?;
-        self.draw_legend(&legend, &inks)?;
+        if width > WIDTH - LEGEND {
+            self.draw_legend(&legend, &inks)?;
+        }
         root.present()?;
         Ok(())
     }
@@ -155,6 +196,31 @@ impl Chart {
     }
 }
 
+impl Series {
+    /// Whether a part of it lies beyond what its source supports.
+    fn is_extrapolated(&self) -> bool {
+        let limit = self.supported_to.unwrap_or(f64::INFINITY);
+        self.points.iter().any(|point| point.0 > limit)
+    }
+
+    /// The line in pieces that are supported by its source or not, in order; neighbours share a point.
+    fn pieces(&self) -> Vec<(bool, Vec<(f64, f64)>)> {
+        let limit = self.supported_to.unwrap_or(f64::INFINITY);
+        let mut pieces: Vec<(bool, Vec<(f64, f64)>)> = Vec::new();
+        for ends in self.points.windows(2) {
+            let supported = ends[0].0.max(ends[1].0) <= limit;
+            match pieces.last_mut().filter(|piece| piece.0 == supported) {
+                Some((_, points)) => points.push(ends[1]),
+                None => pieces.push((supported, ends.to_vec())),
+            }
+        }
+        pieces
+    }
+}
+
+/// Dots and gaps of a line beyond what its source supports, px.
+const DOTTED: (f64, f64) = (1.5, 4.5);
+
 type Plane = Cartesian2d<Scale, Scale>;
 
 impl Ranged for Scale {
@@ -187,25 +253,25 @@ fn draw_series(
     ink: &Ink,
     (x, y): (&Scale, &Scale),
 ) -> Drawn {
-    let places = series
-        .points
-        .iter()
-        .filter_map(|point| Some((x.place(point.0)?, y.place(point.1)?)));
-    match (series.mark, ink.dash) {
-        (Mark::Points, _) => {
-            let discs =
-                places.map(|place| Circle::new(place, px(4.5), colour(ink.colour).filled()));
-            chart.draw_series(discs)?;
-        }
-        (Mark::Line, None) => {
-            for piece in visible_pieces(places, x, y) {
-                chart.draw_series(LineSeries::new(piece, stroke(ink)))?;
-            }
-        }
-        (Mark::Line, Some((dash, gap))) => {
-            for piece in visible_pieces(places, x, y) {
-                let line = DashedLineSeries::new(piece, px(dash), px(gap), stroke(ink));
-                chart.draw_series(line)?;
+    let place = |point: &(f64, f64)| Some((x.place(point.0)?, y.place(point.1)?));
+    if series.mark == Mark::Points {
+        let places = series.points.iter().filter_map(place);
+        let discs = places.map(|place| Circle::new(place, px(4.5), colour(ink.colour).filled()));
+        chart.draw_series(discs)?;
+        return Ok(());
+    }
+    for (supported, points) in series.pieces() {
+        let dash = match supported {
+            true => ink.dash,
+            false => Some(DOTTED),
+        };
+        for piece in visible_pieces(points.iter().filter_map(place), x, y) {
+            match dash {
+                None => drop(chart.draw_series(LineSeries::new(piece, stroke(ink)))?),
+                Some((dash, gap)) => {
+                    let line = DashedLineSeries::new(piece, px(dash), px(gap), stroke(ink));
+                    chart.draw_series(line)?;
+                }
             }
         }
     }
@@ -225,9 +291,9 @@ fn stroke(ink: &Ink) -> ShapeStyle {
 }
 
 /// The drawing is made finer than the page; the view box keeps its size, the image gets that of the page.
-fn on_page_size(svg: &str) -> String {
-    let fine = format!("width=\"{}\" height=\"{}\"", px(WIDTH), px(HEIGHT));
-    let page = format!("width=\"{WIDTH}\" height=\"{HEIGHT}\" role=\"img\"");
+fn on_page_size(svg: &str, width: f64) -> String {
+    let fine = format!("width=\"{}\" height=\"{}\"", px(width), px(HEIGHT));
+    let page = format!("width=\"{width}\" height=\"{HEIGHT}\" role=\"img\"");
     svg.replacen(&fine, &page, 1)
 }
 
@@ -326,6 +392,24 @@ mod tests {
     }
 
     #[test]
+    fn a_line_parts_where_its_source_ends_and_comes_back() {
+        let mut series = Series {
+            label: "a".to_owned(),
+            role: Role::Law,
+            mark: Mark::Line,
+            points: vec![(0.0, 0.0), (1.0, 1.0), (2.0, 2.0), (1.0, 0.5), (0.0, 0.0)],
+            supported_to: Some(1.0),
+        };
+        let pieces = series.pieces();
+        let kinds: Vec<bool> = pieces.iter().map(|piece| piece.0).collect();
+        assert_eq!(kinds, [true, false, true]);
+        assert_eq!(pieces[1].1, [(1.0, 1.0), (2.0, 2.0), (1.0, 0.5)]);
+        assert!(series.is_extrapolated());
+        series.supported_to = None;
+        assert!(!series.is_extrapolated() && series.pieces().len() == 1);
+    }
+
+    #[test]
     fn a_chart_carries_its_labels_and_is_escaped() {
         let chart = Chart {
             x: Axis::new("displacement δ", "m"),
@@ -335,6 +419,7 @@ mod tests {
                 role: Role::Law,
                 mark: Mark::Line,
                 points: vec![(0.0, 0.0), (1e-6, 2.0)],
+                supported_to: None,
             }],
         };
         let svg = chart.svg().unwrap();

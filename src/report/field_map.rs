@@ -3,7 +3,7 @@
 use super::markup::{escape, png_url};
 use super::raster::{FieldPoint, LEVELS, Raster, SIZE, level_colour};
 use super::scale::{Axis, Scale};
-use crate::unit::{engineering, prefixed};
+use crate::unit::prefixed;
 use crate::{Error, Result};
 use std::fmt::Write;
 
@@ -25,10 +25,12 @@ pub struct FieldMap {
     pub window: Option<f64>,
 }
 
-const SVG_SIZE: (f64, f64) = (600.0, 500.0);
+const SVG_SIZE: (f64, f64) = (660.0, 510.0);
+/// Room for the axis of heights, left of the picture.
+const LEFT: f64 = 70.0;
 
 impl FieldMap {
-    /// The map as an SVG document: cross-section, wall, scale bar, colour bar.
+    /// The map as an SVG document: cross-section, wall, axes, colour bar.
     ///
     /// # Errors
     /// [`Error::Figure`] when there is nothing to draw or the raster cannot be encoded.
@@ -69,7 +71,7 @@ impl FieldMap {
     fn drawing(&self, png: &[u8], pixel: f64, top: f64) -> String {
         let (w, h) = SVG_SIZE;
         let (picture_w, picture_h) = (SIZE.0 as f64, SIZE.1 as f64);
-        let (x0, y0) = (14.0, 14.0);
+        let (x0, y0) = (LEFT, 14.0);
         let wall = y0 + picture_h;
         let mut svg = format!(
             "<svg width=\"{w}\" height=\"{h}\" role=\"img\" viewBox=\"0 0 {w} {h}\" \
@@ -79,7 +81,7 @@ impl FieldMap {
              <path d=\"M{x0} {wall}h{picture_w}\" stroke=\"#444\" stroke-width=\"2\"/>\n",
             png_url(png)
         );
-        self.draw_scale_bar(&mut svg, pixel, (x0, wall + 22.0));
+        draw_axes(&mut svg, pixel, (x0, wall));
         self.draw_colour_bar(
             &mut svg,
             top,
@@ -88,25 +90,6 @@ impl FieldMap {
         );
         svg.push_str("</svg>\n");
         svg
-    }
-
-    /// A bar of 1, 2 or 5 times a power of ten, about a fifth of the picture wide.
-    fn draw_scale_bar(&self, svg: &mut String, pixel: f64, (x, y): (f64, f64)) {
-        let longest = 0.3 * SIZE.0 as f64 * pixel;
-        let power = 10f64.powf(longest.log10().floor());
-        let length = [5.0, 2.0, 1.0]
-            .into_iter()
-            .map(|m| m * power)
-            .find(|length| *length <= longest)
-            .unwrap_or(power);
-        let _ = writeln!(
-            svg,
-            "<path d=\"M{x} {y}h{:.1}\" stroke=\"#222\" stroke-width=\"3\"/><text x=\"{:.1}\" y=\"{:.1}\">{}</text>",
-            length / pixel,
-            x + length / pixel + 8.0,
-            y + 5.0,
-            engineering(length, "m", 2)
-        );
     }
 
     fn draw_colour_bar(&self, svg: &mut String, top: f64, (x, y): (f64, f64), height: f64) {
@@ -145,6 +128,61 @@ impl FieldMap {
             escape(&scale.title)
         );
     }
+}
+
+/// Axes of radius and height, with the origin at the pole that meets the wall, where (`x0`, `wall`) is the lower left corner.
+fn draw_axes(svg: &mut String, pixel: f64, (x0, wall): (f64, f64)) {
+    let (width, height) = (SIZE.0 as f64, SIZE.1 as f64);
+    let scale = |label: &str, length: f64| {
+        let axis = Axis {
+            range: Some((0.0, length)),
+            ..Axis::new(label, "m")
+        };
+        let place = pixel * prefixed(length, "m").0;
+        (Scale::new(&axis, std::iter::empty()), place)
+    };
+    let middle = x0 + 0.5 * width;
+    let (radius, place) = scale("distance from the axis r", 0.5 * width * pixel);
+    for &tick in &radius.ticks {
+        let sides = if tick == 0.0 {
+            &[1.0][..]
+        } else {
+            &[-1.0, 1.0]
+        };
+        for side in sides {
+            let at = middle + side * tick / place;
+            let _ = writeln!(
+                svg,
+                "<path d=\"M{at:.1} {wall}v5\" stroke=\"#444\"/><text x=\"{at:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{}</text>",
+                wall + 20.0,
+                radius.label(tick)
+            );
+        }
+    }
+    let _ = writeln!(
+        svg,
+        "<text x=\"{middle:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{}</text>",
+        wall + 41.0,
+        escape(&radius.title)
+    );
+    let (up, place) = scale("height z", height * pixel);
+    let _ = writeln!(svg, "<path d=\"M{x0} {wall}v-{height}\" stroke=\"#444\"/>");
+    for &tick in &up.ticks {
+        let at = wall - tick / place;
+        let _ = writeln!(
+            svg,
+            "<path d=\"M{x0} {at:.1}h-5\" stroke=\"#444\"/><text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{}</text>",
+            x0 - 8.0,
+            at + 5.0,
+            up.label(tick)
+        );
+    }
+    let (tx, ty) = (x0 - 50.0, wall - 0.5 * height);
+    let _ = writeln!(
+        svg,
+        "<text transform=\"translate({tx},{ty}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
+        escape(&up.title)
+    );
 }
 
 #[cfg(test)]
@@ -222,6 +260,7 @@ mod tests {
     fn the_picture_is_symmetric_and_named() {
         let svg = ball().svg().unwrap();
         assert!(svg.contains("height (m)") && svg.contains("data:image/png;base64,"));
+        assert!(svg.contains("distance from the axis r (m)") && svg.contains("height z (m)"));
         let map = ball();
         let png = raster(&map).png().unwrap();
         let mut reader = png::Decoder::new(std::io::Cursor::new(png))

@@ -1,6 +1,6 @@
 //! Figure: a drawing with its caption; the figures of an impact, a comparison and a bed.
 
-use super::chart::{Chart, Mark, Series};
+use super::chart::{Chart, Entry, Mark, Series};
 use super::palette::Role;
 use super::scale::Axis;
 use crate::Result;
@@ -16,8 +16,12 @@ pub struct Figure {
     pub name: String,
     /// What it shows.
     pub caption: String,
-    /// The drawing.
+    /// The drawing, complete in itself.
     pub svg: String,
+    /// The drawing for a page that shows its legend elsewhere.
+    pub bare: String,
+    /// That legend; empty for a drawing without one.
+    pub legend: Vec<Entry>,
 }
 
 /// Room above and beside the simulation and our law; theories that go further are cut.
@@ -40,6 +44,7 @@ impl Figure {
                 .iter()
                 .map(|sample| (sample.displacement_m, sample.force_n))
                 .collect(),
+            supported_to: None,
         }];
         series.extend_from_slice(laws);
         let leading = |role| matches!(role, Role::Simulation | Role::Law);
@@ -188,7 +193,21 @@ impl Figure {
             name,
             caption,
             svg: chart.svg()?,
+            bare: chart.bare()?,
+            legend: chart.legend(),
         })
+    }
+
+    /// A drawing without a legend.
+    #[must_use]
+    pub fn plain(name: String, caption: String, svg: String) -> Self {
+        Figure {
+            name,
+            caption,
+            bare: svg.clone(),
+            svg,
+            legend: Vec::new(),
+        }
     }
 
     /// Write `folder/<name>.svg`.
@@ -226,6 +245,7 @@ mod tests {
             role: Role::Theory(0),
             mark: Mark::Line,
             points: vec![(0.0, 0.0), (19e-6, 400.0)],
+            supported_to: None,
         };
         let figure = Figure::force_displacement(12.5, &curve, &[hertz]).unwrap();
         assert_eq!(figure.name, "force_displacement_V12.5");

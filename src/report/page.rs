@@ -1,5 +1,6 @@
 //! Page: one HTML file that needs nothing else; sections of text, tables, figures and pictures.
 
+use super::chart::{Entry, Mark};
 use super::figure::Figure;
 use super::markup::{escape, png_url};
 use super::table::Table;
@@ -115,13 +116,14 @@ impl Block {
                 writeln!(html, "</details>")
             }
             Block::Figures(figures) => {
+                write_legend(html, figures)?;
                 html.push_str("<div class=\"figures\">\n");
                 for figure in figures {
                     let caption = escape(&figure.caption);
                     writeln!(
                         html,
                         "<figure>{}<figcaption>{caption}</figcaption></figure>",
-                        figure.svg
+                        figure.bare
                     )?;
                 }
                 writeln!(html, "</div>")
@@ -143,6 +145,47 @@ impl Block {
             Block::Code(text) => writeln!(html, "<pre><code>{}</code></pre>", escape(text)),
         }
     }
+}
+
+/// One legend for all figures side by side: every name once.
+fn write_legend(html: &mut String, figures: &[Figure]) -> std::fmt::Result {
+    let all = || figures.iter().flat_map(|figure| &figure.legend);
+    let mut entries: Vec<&Entry> = Vec::new();
+    for entry in all() {
+        if !entries.iter().any(|other| other.label == entry.label) {
+            entries.push(entry);
+        }
+    }
+    if entries.is_empty() {
+        return Ok(());
+    }
+    html.push_str("<ul class=\"legend\">\n");
+    for entry in entries {
+        let [r, g, b] = entry.ink.colour;
+        let shape = match (entry.mark, entry.ink.dash) {
+            (Mark::Points, _) => {
+                format!("<circle cx=\"17\" cy=\"6\" r=\"4.5\" fill=\"#{r:02x}{g:02x}{b:02x}\"/>")
+            }
+            (Mark::Line, dash) => {
+                let dash = dash.map_or_else(String::new, |(dash, gap)| {
+                    format!(" stroke-dasharray=\"{dash} {gap}\"")
+                });
+                format!(
+                    "<path d=\"M1 6h32\" stroke=\"#{r:02x}{g:02x}{b:02x}\" stroke-width=\"{}\"{dash}/>",
+                    entry.ink.width
+                )
+            }
+        };
+        let label = escape(&entry.label);
+        writeln!(
+            html,
+            "<li><svg width=\"34\" height=\"12\" viewBox=\"0 0 34 12\" aria-hidden=\"true\">{shape}</svg> {label}</li>"
+        )?;
+    }
+    if all().any(|entry| entry.extrapolated) {
+        html.push_str("<li class=\"note\">dotted: beyond what the law’s source supports</li>\n");
+    }
+    writeln!(html, "</ul>")
 }
 
 impl Page {
@@ -236,13 +279,46 @@ mod tests {
     }
 
     #[test]
+    fn figures_side_by_side_share_one_legend() {
+        let series = |label: &str, supported_to| crate::report::chart::Series {
+            label: label.to_owned(),
+            role: crate::report::palette::Role::Law,
+            mark: Mark::Line,
+            points: vec![(0.0, 0.0), (1.0, 1.0)],
+            supported_to,
+        };
+        let chart = |names: &[&str], end| crate::report::chart::Chart {
+            x: crate::report::scale::Axis::new("x", "m"),
+            y: crate::report::scale::Axis::new("y", "N"),
+            series: names.iter().map(|name| series(name, end)).collect(),
+        };
+        let of = |name: &str, names: &[&str], end| {
+            Figure::chart(name.to_owned(), String::new(), chart(names, end)).unwrap()
+        };
+        let figures = vec![
+            of("a", &["one", "two"], None),
+            of("b", &["two", "three"], Some(0.5)),
+        ];
+        let html = Page::default()
+            .with(Section::new("S").with(Block::Figures(figures)))
+            .html();
+        assert_eq!(html.matches("class=\"legend\"").count(), 1);
+        for name in ["one", "two", "three"] {
+            assert_eq!(
+                html.matches(&format!("</svg> {name}</li>")).count(),
+                1,
+                "{name}"
+            );
+        }
+        assert!(html.contains("dotted: beyond"));
+        assert_eq!(html.matches("width=\"545\"").count(), 2);
+    }
+
+    #[test]
     fn the_page_and_its_plots_are_files() {
         let folder = tempfile::tempdir().unwrap();
-        let figure = Figure {
-            name: "a".to_owned(),
-            caption: "b".to_owned(),
-            svg: "<svg></svg>".to_owned(),
-        };
+        let svg = "<svg></svg>".to_owned();
+        let figure = Figure::plain("a".to_owned(), "b".to_owned(), svg);
         let page = Page::default().with(Section::new("S").with(Block::Figures(vec![figure])));
         let path = page.write(folder.path()).unwrap();
         let html = std::fs::read_to_string(path).unwrap();

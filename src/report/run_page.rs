@@ -83,6 +83,39 @@ pub struct RunPage<'a> {
     pub limits: Vec<String>,
 }
 
+/// Symbols of tables and figures.
+const SYMBOLS: [(&str, &str); 8] = [
+    (
+        "V, e",
+        "impact speed; restitution: speed of the centre of mass after the impact over that before",
+    ),
+    (
+        "δ",
+        "displacement: approach of the centre of mass to the wall since first contact",
+    ),
+    (
+        "F*, δ*",
+        "largest force, averaged over 2 % of the contact time; largest displacement",
+    ),
+    (
+        "δ_res, t_c",
+        "displacement at loss of contact; contact time",
+    ),
+    (
+        "D, H_d, H_e",
+        "diameter; height after the impact, averaged over the vibration; height at the largest compression",
+    ),
+    (
+        "ε_p",
+        "equivalent plastic strain, mean over the volume after the rebound",
+    ),
+    ("W_i, W_p", "incident kinetic energy; plastic work"),
+    (
+        "Y, E, ρ, ν, R",
+        "yield strength, Young’s modulus, density, Poisson’s ratio, radius",
+    ),
+];
+
 impl RunPage<'_> {
     /// Write `report.html` and `plots/*.svg` into `folder`; the page's path.
     ///
@@ -213,11 +246,21 @@ impl RunPage<'_> {
         let curves = match self.curves.is_empty() {
             true => "",
             false => {
-                "Force against displacement of the centre of mass, simulated and by the laws; curves that leave the \
-                 frame are cut."
+                "Force against displacement of the centre of mass: the simulation (MPM), the fitted law, and the \
+                 theories that come nearest over all speeds; the others stand in the tables of laws compared. Curves that \
+                 leave the frame are cut. The simulated force climbs in small teeth: the contact grows from cell to cell of \
+                 the grid, and in fast impacts waves cross the particle. Finer cells make the teeth smaller; F* is a mean \
+                 over 2 % of the contact time, so that a single tooth does not count."
             }
         };
+        let symbols = match self.impacts.is_empty() {
+            true => Vec::new(),
+            false => SYMBOLS
+                .map(|(symbol, meaning)| (symbol.to_owned(), meaning.to_owned()))
+                .to_vec(),
+        };
         Section::new("Impacts")
+            .with(Block::Facts(symbols))
             .with(Block::Table(self.figures_table()))
             .with(Block::Text(curves.to_owned()))
             .with(Block::Figures(self.curves.clone()))
@@ -230,17 +273,13 @@ impl RunPage<'_> {
             of(|s| s.restitution).titled("e", ""),
             of(|s| s.max_force_n).titled("F*", "N"),
             of(|s| s.max_displacement_m).titled("δ*", "m"),
-            of(|s| s.residual_displacement_m).titled("δ at rebound", "m"),
-            of(|s| s.contact_time_s).titled("contact time", "s"),
+            of(|s| s.residual_displacement_m).titled("δ_res", "m"),
+            of(|s| s.contact_time_s).titled("t_c", "s"),
             of(|s| s.compression_ratio).titled("1 − H_d/D", ""),
             of(|s| s.height_at_max_compression_ratio).titled("H_e/D", ""),
             of(|s| s.equivalent_plastic_strain).titled("mean ε_p", ""),
         ];
-        Column::table(
-            "Figures of the simulated impacts. δ is the approach of the centre of mass since first contact; F* is the \
-             largest force averaged over 2 % of the contact time.",
-            &columns,
-        )
+        Column::table("Figures of the simulated impacts.", &columns)
     }
 
     fn audit(&self) -> Section {

@@ -182,5 +182,6 @@ fn line(run: &LawRun, point: impl Fn(&Row) -> (f64, f64)) -> Series {
             .filter(|row| row.strain > 0.0)
             .map(point)
             .collect(),
+        supported_to: None,
     }
 }

@@ -1,6 +1,6 @@
 //! Impacts shown: plan, force-displacement curves, restitution, and fields over the particle.
 
-use super::{Loop, NamedLaw, Restitution, Sphere};
+use super::{Loop, NamedLaw, Restitution, Sphere, ValidTo};
 use crate::Result;
 use crate::case::Case;
 use crate::curve::{Impact, MapPoint, Part, ParticleMap};
@@ -21,19 +21,41 @@ const BEYOND: f64 = 0.01;
 /// What [`BEYOND`] means for the reader.
 const CAPPED: &str = "One per cent of the volume in question lies beyond the end of the colours.";
 
-/// What was planned: effects once, the grid of each speed.
+/// What was planned: each effect with the reason at every speed, said once where it is the same; the grid of each speed.
 #[must_use]
 pub fn choices(case: &Case, plans: &[Plan]) -> Vec<Choice> {
     let mut choices: Vec<Choice> = Vec::new();
-    for effect in plans.iter().flat_map(|plan| &plan.effects) {
-        let choice = Choice {
-            what: effect.name.to_owned(),
-            setting: if effect.on { "on" } else { "off" }.to_owned(),
-            reason: effect.reason.clone(),
+    let effects = plans.iter().flat_map(|plan| {
+        let speed = significant(plan.velocity, 4);
+        plan.effects
+            .iter()
+            .map(move |effect| (speed.clone(), effect))
+    });
+    // speeds of each reason of each decision, in order
+    let mut reasons: Vec<(&str, bool, &str, Vec<String>)> = Vec::new();
+    for (speed, effect) in effects {
+        let known = reasons.iter_mut().find(|(name, on, reason, _)| {
+            *name == effect.name && *on == effect.on && *reason == effect.reason
+        });
+        match known {
+            Some((.., speeds)) => speeds.push(speed),
+            None => reasons.push((effect.name, effect.on, &effect.reason, vec![speed])),
+        }
+    }
+    for (name, on, reason, speeds) in reasons {
+        let setting = if on { "on" } else { "off" };
+        let reason = match speeds.len() == plans.len() {
+            true => reason.to_owned(),
+            false => format!("{} m/s: {reason}", speeds.join(", ")),
         };
-        let known = |other: &Choice| other.what == choice.what && other.setting == choice.setting;
-        if !choices.iter().any(known) {
-            choices.push(choice);
+        let known = |other: &&mut Choice| other.what == name && other.setting == setting;
+        match choices.iter_mut().find(known) {
+            Some(choice) => choice.reason = format!("{}; {reason}", choice.reason),
+            None => choices.push(Choice {
+                what: name.to_owned(),
+                setting: setting.to_owned(),
+                reason,
+            }),
         }
     }
     let length = |reduced: f64| engineering(reduced * case.radius, "m", 3);
@@ -56,11 +78,32 @@ pub fn choices(case: &Case, plans: &[Plan]) -> Vec<Choice> {
     choices
 }
 
-/// Force against displacement at each speed, and restitution against speed.
+/// Theories drawn beside simulation and fitted law: with more, curves are no longer told apart.
+const DRAWN: usize = 4;
+
+/// The fitted law and the theories that come first in `ranking`, best first.
+fn drawn<'a>(laws: &'a [NamedLaw], ranking: &[&str]) -> Vec<&'a NamedLaw> {
+    let ours = laws.iter().filter(|law| law.role == Role::Law);
+    let theory = |name: &&str| {
+        laws.iter()
+            .find(|law| law.name == *name && law.role != Role::Law)
+    };
+    ours.chain(ranking.iter().filter_map(theory).take(DRAWN))
+        .collect()
+}
+
+/// Force against displacement at each speed, and restitution against speed: of the simulation, the fitted law and the
+/// first theories of `ranking`.
 ///
 /// # Errors
 /// [`crate::Error::Figure`] when one cannot be drawn, and those of [`crate::law::AnyLaw::visit`].
-pub fn curves(case: &Case, impacts: &[&Impact], laws: &[NamedLaw]) -> Result<Vec<Figure>> {
+pub fn curves(
+    case: &Case,
+    impacts: &[&Impact],
+    laws: &[NamedLaw],
+    ranking: &[&str],
+) -> Result<Vec<Figure>> {
+    let laws = drawn(laws, ranking);
     let sphere = Sphere {
         radius: case.radius,
         mass: case.material.sphere_mass(case.radius),
@@ -70,25 +113,33 @@ pub fn curves(case: &Case, impacts: &[&Impact], laws: &[NamedLaw]) -> Result<Vec
         let speed = impact.summary.velocity_m_s;
         let lines = laws
             .iter()
-            .map(|law| Ok(line(law, law.law.visit(Loop(sphere, speed))?)))
+            .map(|law| {
+                let end = law.law.visit(ValidTo)? * case.radius * (1.0 + ROUNDING);
+                Ok(line(law, law.law.visit(Loop(sphere, speed))?, end))
+            })
             .collect::<Result<Vec<_>>>()?;
         figures.push(Figure::force_displacement(speed, &impact.curve, &lines)?);
     }
-    figures.push(restitution(sphere, impacts, laws)?);
+    figures.push(restitution(sphere, impacts, &laws)?);
     Ok(figures)
 }
 
-fn line(law: &NamedLaw, points: Vec<(f64, f64)>) -> Series {
+/// What a law may reach beyond the end of its range and still be in it: the fastest impact of a fitted law is that end.
+const ROUNDING: f64 = 1e-2;
+
+/// Line of a law whose source supports it up to `end` on the horizontal axis.
+fn line(law: &NamedLaw, points: Vec<(f64, f64)>, end: f64) -> Series {
     Series {
         label: law.name.clone(),
         role: law.role,
         mark: Mark::Line,
         points,
+        supported_to: end.is_finite().then_some(end),
     }
 }
 
 /// From a tenth of the slowest impact, where laws part from Hertz, to a little past the fastest.
-fn restitution(sphere: Sphere, impacts: &[&Impact], laws: &[NamedLaw]) -> Result<Figure> {
+fn restitution(sphere: Sphere, impacts: &[&Impact], laws: &[&NamedLaw]) -> Result<Figure> {
     let speed = |impact: &&Impact| impact.summary.velocity_m_s;
     let low = 0.1 * impacts.iter().map(speed).fold(f64::INFINITY, f64::min);
     let high = 1.2 * impacts.iter().map(speed).fold(0.0, f64::max);
@@ -104,9 +155,20 @@ fn restitution(sphere: Sphere, impacts: &[&Impact], laws: &[NamedLaw]) -> Result
             .iter()
             .map(|impact| (speed(impact), impact.summary.restitution))
             .collect(),
+        supported_to: None,
     }];
     for law in laws {
-        series.push(line(law, law.law.visit(Restitution(sphere, &speeds))?));
+        let end = law.law.visit(ValidTo)? * sphere.radius * (1.0 + ROUNDING);
+        let bounces = law.law.visit(Restitution(sphere, &speeds))?;
+        let inside = bounces.iter().filter(|bounce| bounce.displacement <= end);
+        let fastest = match bounces.iter().all(|bounce| bounce.displacement <= end) {
+            true => f64::INFINITY,
+            false => inside.map(|bounce| bounce.velocity).fold(0.0, f64::max),
+        };
+        let points = bounces
+            .iter()
+            .map(|bounce| (bounce.velocity, bounce.restitution));
+        series.push(line(law, points.collect(), fastest));
     }
     Figure::restitution(series)
 }
@@ -148,11 +210,7 @@ pub fn maps(impacts: &[Simulated]) -> Result<Vec<Figure>> {
 }
 
 fn map(name: String, caption: String, field: FieldMap) -> Result<Figure> {
-    Ok(Figure {
-        name,
-        caption,
-        svg: field.svg()?,
-    })
+    Ok(Figure::plain(name, caption, field.svg()?))
 }
 
 /// A field of a map; heights are measured from the lowest point, which a rebounding particle carries away from the wall.
