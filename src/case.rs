@@ -222,7 +222,7 @@ impl Case {
     /// A case without a file: a sphere of `radius` (m) of `material`, at `velocities` (m/s), to `tolerance`.
     ///
     /// # Errors
-    /// [`Error::Argument`] for a value that a case file would not be allowed either.
+    /// [`Error::Refused`] for a value that a case file would not be allowed either.
     pub fn of(
         name: &str,
         radius: f64,
@@ -231,8 +231,8 @@ impl Case {
         tolerance: f64,
     ) -> Result<Self> {
         let positive = |value: &f64| value.is_finite() && *value > 0.0;
-        let refuse = |argument: &str, found: String, allowed: &str| Error::Argument {
-            argument: argument.to_owned(),
+        let refuse = |what: &str, found: String, allowed: &str| Error::Refused {
+            what: what.to_owned(),
             found,
             allowed: allowed.to_owned(),
         };

@@ -20,6 +20,7 @@ chapters! {
     accuracy, "accuracy.md";
     solver, "solver.md";
     measured, "measured.md";
+    gallery, "gallery.md";
     keys, "keys.md";
     columns, "columns.md";
 }

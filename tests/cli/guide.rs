@@ -184,6 +184,26 @@ fn the_book_has_every_chapter_and_so_has_the_documentation() {
 }
 
 #[test]
+fn the_gallery_shows_every_picture_that_its_script_makes() {
+    let guide = root().join("src/guide");
+    let text = std::fs::read_to_string(guide.join("gallery.md")).unwrap();
+    let shown: BTreeSet<&str> = text
+        .split(['(', ')'])
+        .filter_map(|link| link.strip_prefix("gallery/"))
+        .collect();
+    let there: Vec<String> = std::fs::read_dir(guide.join("gallery"))
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    assert_eq!(shown, there.iter().map(|name| &name[..]).collect());
+    let script = std::fs::read_to_string(guide.join("gallery.sh")).unwrap();
+    for name in shown {
+        let stem = name.split('.').next().unwrap();
+        assert!(script.contains(stem), "{name}");
+    }
+}
+
+#[test]
 fn the_readme_is_short() {
     let readme = std::fs::read_to_string(root().join("README.md")).unwrap();
     let lines = readme.lines().count();

@@ -26,7 +26,7 @@ const ROOMS: Order = &[
     &["dem"],
     &["bed"],
     &["export"],
-    &["report"],
+    &["report", "prelude"],
     &["command"],
     &["cli"],
     &["guide"],

@@ -87,11 +87,11 @@ pub(super) struct RegionTable {
 
 keys! {
     RegionTable "A block (`low`, `high`) or an upright cylinder (`base`, `radius`, `height`)." {
-        low: key("lowest corner", "", "['0 mm', '0 mm', '5 mm']").or("block"),
-        high: key("highest corner", "above `low`", "['5 mm', '5 mm', '9 mm']").or("block"),
-        base: key("middle of its bottom", "", "['0 mm', '0 mm', '0 mm']").or("cylinder"),
-        radius: key("radius", "> 0", "'24 mm'").or("cylinder"),
-        height: key("height", "> 0", "'200 mm'").or("cylinder"),
+        low: key("lowest corner", "", "['0 mm', '0 mm', '5 mm']").or("needed for a block"),
+        high: key("highest corner", "above `low`", "['5 mm', '5 mm', '9 mm']").or("needed for a block"),
+        base: key("middle of its bottom", "", "['0 mm', '0 mm', '0 mm']").or("needed for a cylinder"),
+        radius: key("radius", "> 0", "'24 mm'").or("needed for a cylinder"),
+        height: key("height", "> 0", "'200 mm'").or("needed for a cylinder"),
     }
 }
 

@@ -159,6 +159,7 @@ fn moduli(scene: &Scene, report: &BedReport) -> Vec<Series> {
         role: Role::Other,
         mark: Mark::Line,
         points: oedometer::walton(&run.rows, scene.material()),
+        supported_to: None,
     }));
     series
 }
