@@ -38,6 +38,7 @@ fn closes(name: &str) {
 }
 
 #[test]
+#[ignore = "150 s of one core"]
 fn the_oedometer_closes() {
     closes("bed-oedometer");
 }
@@ -69,4 +70,22 @@ fn the_drum_closes() {
 #[ignore = "60 s of one core"]
 fn the_silo_closes() {
     closes("bed-hopper");
+}
+
+#[test]
+#[ignore = "3 minutes of one core"]
+fn the_silo_of_the_benchmark_closes() {
+    closes("benchmark-silo");
+}
+
+#[test]
+#[ignore = "a minute of one core"]
+fn the_drum_of_the_benchmark_closes() {
+    closes("benchmark-drum");
+}
+
+#[test]
+#[ignore = "4 minutes of one core"]
+fn the_penetration_of_the_benchmark_closes() {
+    closes("benchmark-penetration");
 }

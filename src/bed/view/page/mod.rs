@@ -237,24 +237,29 @@ fn quantities(frames: &[Frame]) -> Vec<Quantity> {
     ]
 }
 
-/// The frame that shows most: of those in which most grains touch something, the one whose colours are the brightest,
-/// all quantities together. A bed at the height of its compression, a silo that flows, a body as it plunges in: not a bed
-/// that is still to fall, nor one at rest.
+/// The frame that shows most: of those in which most of the film's grains touch something, the one whose touching grains have
+/// the brightest colours, all quantities together. A bed at the height of its compression, a silo that flows, a drum that
+/// turns, a body as it plunges in: not a bed that is still filled, nor one at rest.
 #[must_use]
 pub fn shows_most(frames: &[Frame]) -> usize {
     let quantities = quantities(frames);
+    let all = frames.iter().map(|frame| frame.centres.len()).max();
+    let all = all.unwrap_or(0);
     let brightness = |frame: &Frame| -> f64 {
-        let count = frame.centres.len().max(1) as f64;
-        let touching = frame.squeeze.iter().filter(|&&force| force > 0.0).count();
-        if 2 * touching <= frame.centres.len() {
+        let touching: Vec<usize> = (0..frame.squeeze.len())
+            .filter(|&grain| frame.squeeze[grain] > 0.0)
+            .collect();
+        if 2 * touching.len() <= all {
             return 0.0;
         }
         let values = [&frame.squeeze, &frame.speed, &frame.plastic];
-        let mean = |(quantity, values): (&Quantity, &Vec<f32>)| {
-            let levels = values.iter().map(|&v| level(f64::from(v), quantity.most));
-            levels.sum::<f64>() / count
+        let sum = |(quantity, values): (&Quantity, &Vec<f32>)| -> f64 {
+            let levels = touching
+                .iter()
+                .map(|&grain| level(f64::from(values[grain]), quantity.most));
+            levels.sum()
         };
-        quantities.iter().zip(values).map(mean).sum()
+        quantities.iter().zip(values).map(sum).sum()
     };
     let mut best = (0, 0.0);
     for (number, frame) in frames.iter().enumerate() {
@@ -352,6 +357,16 @@ mod tests {
         // full, flowing, empty
         let frames = [frame(0.3, 0.0), frame(0.2, 1.0), frame(0.01, 0.0)];
         assert_eq!(shows_most(&frames), 1);
+        // a first group that moves, all of them at rest, all of them moving a little
+        let few = Frame {
+            centres: vec![[0.0; 3]; 1],
+            squeeze: vec![1.0],
+            speed: vec![1.0],
+            plastic: vec![0.0],
+            ..Frame::default()
+        };
+        let frames = [few, frame(0.3, 0.0), frame(0.2, 0.1)];
+        assert_eq!(shows_most(&frames), 2);
         assert_eq!(shows_most(&[]), 0);
     }
 
