@@ -31,6 +31,7 @@ pub mod guide;
 pub mod impact;
 pub mod lanes;
 pub mod law;
+pub mod listing;
 pub mod material;
 pub mod plan;
 pub mod prelude;

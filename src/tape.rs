@@ -7,7 +7,7 @@ use crate::lanes::{Lanes, WIDTH};
 
 mod checkpoint;
 
-pub use checkpoint::{Checkpoint, Keeper, TakenUp, VERSION, sealed, unsealed};
+pub use checkpoint::{Checkpoint, Keeper, TakenUp, VERSION, contents, sealed, unsealed};
 
 /// Numbers written one after the other, and read back in the same order.
 #[derive(Debug, Clone, PartialEq, Default)]

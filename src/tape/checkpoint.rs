@@ -199,6 +199,25 @@ pub fn sealed(version: u64, fill: impl FnOnce(&mut Tape)) -> Tape {
     tape
 }
 
+/// What a checkpoint of this version keeps of its run, whichever run that is: the tape at its beginning.
+///
+/// # Errors
+/// What is wrong, as the end of a sentence that starts with the file's name.
+pub fn contents(bytes: Vec<u8>) -> std::result::Result<Tape, String> {
+    let damaged = || "is no restart file, or a damaged one".to_owned();
+    let mut tape = unsealed(bytes).ok_or_else(damaged)?;
+    let (mut version, mut key, mut seconds) = (0u64, [0u64; 4], 0.0);
+    version.load(&mut tape).ok_or_else(damaged)?;
+    if version != VERSION {
+        return Err(format!(
+            "is of version {version} of the restart files; this program reads version {VERSION}"
+        ));
+    }
+    key.load(&mut tape).ok_or_else(damaged)?;
+    seconds.load(&mut tape).ok_or_else(damaged)?;
+    Ok(tape)
+}
+
 /// The tape of a file, at the version; `None` when the file is none of ours or its sum does not fit.
 pub fn unsealed(bytes: Vec<u8>) -> Option<Tape> {
     let (magic, rest) = bytes.split_at_checked(MAGIC.len())?;

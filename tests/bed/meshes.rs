@@ -4,7 +4,7 @@ use impactlaw::bed::scene::Scene;
 use impactlaw::dem::bodies::mesh::{Format, Import, read};
 use impactlaw::dem::bodies::{Mobility, Solid};
 
-type Facet = [[f64; 3]; 3];
+pub type Facet = [[f64; 3]; 3];
 
 /// Cube of edge 10 on the plane z = 0, about the z axis.
 pub fn cube() -> Vec<Facet> {

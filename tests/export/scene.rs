@@ -263,12 +263,21 @@ fn what_is_not_exported_is_refused_by_name_and_nothing_is_written() {
 }
 
 #[test]
-fn periodic_sides_pairs_and_domains_are_refused_by_name_instead_of_left_out() {
+fn sides_pairs_domains_bodies_outlets_and_measures_are_refused_by_name_instead_of_left_out() {
     let text = std::fs::read_to_string(scene(tempfile::tempdir().unwrap().path())).unwrap();
     let pair = "\n[[pair]]\nbetween = [\"grains\", \"grains\"]\nfriction = 0.1\n";
     let corner = |edge| format!("[\"{edge} m\", \"{edge} m\", \"{edge} m\"]");
     let domain = format!("\n[domain]\nlow = {}\nhigh = {}\n", corner(-1), corner(1));
+    let body = "\n[[body]]\nname = \"b\"\nball = { radius = \"1 mm\" }\nat = [\"1 m\", \"1 m\", \"1 m\"]\n";
+    let outlet =
+        "\n[[outlet]]\nplane = { at = [\"0 m\", \"0 m\", \"-1 m\"], normal = [0.0, 0.0, -1.0] }\n";
+    let measure = "\n[[measure]]\nkind = \"flow\"\nheight = \"1 mm\"\n";
     for (key, text) in [
+        ("body[0]", format!("{text}{body}")),
+        ("body[0]", format!("{text}{body}belt = {{}}\n")),
+        ("body[0]", format!("{text}{body}driven = {{}}\n")),
+        ("outlet[0]", format!("{text}{outlet}")),
+        ("measure[0]", format!("{text}{measure}")),
         ("periodic", format!("periodic = [\"x\"]\n{text}")),
         ("pair[0]", format!("{text}{pair}")),
         ("domain", format!("{text}{domain}")),

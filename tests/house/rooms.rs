@@ -24,6 +24,7 @@ const ROOMS: Order = &[
     &["law"],
     &["compare", "cost"],
     &["dem"],
+    &["listing"],
     &["bed"],
     &["export"],
     &["report", "prelude"],

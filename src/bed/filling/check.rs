@@ -7,6 +7,7 @@ use crate::Result;
 use crate::bed::scene::region::Region;
 use crate::bed::scene::{Change, Insertion, Move, Outlet, Scene, Stage};
 use crate::dem::bodies::Mobility;
+use crate::dem::bodies::enclosure::Room;
 use crate::dem::bodies::machine::Machine;
 use crate::dem::grains::neighbours::HalfList;
 use crate::dem::grains::{Grains, Sphere};
@@ -35,7 +36,7 @@ pub fn check_regions(scene: &Scene, seed: u64) -> Result<()> {
                 )
             }
             Insertion::Pour => {
-                let source = Source::of(scene, group);
+                let source = Source::of(scene, index);
                 let mut random = random_of(seed, index, 0);
                 let first = lattice(&source, &mut random, |_, _| true, |last| last.is_some());
                 (first.len(), "one grain".to_owned())
@@ -72,10 +73,36 @@ pub fn check_overlaps(scene: &Scene, grains: &Grains, groups: &[usize]) -> Resul
     };
     let spheres: Vec<Sphere> = grains.spheres.iter().map(inside).collect();
     let list = HalfList::within(&grains.room, &spheres, 0.0);
-    let Some(&[a, b]) = list.pairs.first() else {
+    let overlap = |&[a, b]: &[u32; 2]| {
+        let [a, b] = [a, b].map(|grain| spheres[grain as usize]);
+        let distance = grains.room.shortest(a.centre - b.centre).length();
+        (a.radius + b.radius - distance) / (2.0 * a.radius.min(b.radius))
+    };
+    // files may have grains that press each other, and nothing else may
+    let let_in = |grain: u32| {
+        let given = scene.groups[groups[grain as usize]].given.as_ref();
+        given.map_or(0.0, |given| given.overlap)
+    };
+    let beyond = |pair: &&[u32; 2]| {
+        let [a, b] = pair.map(let_in);
+        overlap(pair) > a.min(b)
+    };
+    let Some(pair) = list.pairs.iter().find(beyond) else {
         return Ok(());
     };
-    let [a, b] = [a, b].map(|grain| groups[grain as usize]);
+    let lines = Lines::of(scene, groups);
+    let places = pair.map(|grain| lines.at(grain as usize));
+    if let [Some((file, a)), Some((_, b))] = places {
+        let group = &scene.groups[groups[pair[1] as usize]];
+        let allowed = format!(
+            "must list grains that are apart: {file} has those of lines {a} and {b} overlap by {:.1} % of a diameter; let in is {:.1} % (`overlap`)",
+            100.0 * overlap(pair),
+            100.0 * let_in(pair[1])
+        );
+        let key = format!("{}.file.path", group.key);
+        return Err(scene.document.reject(&key, allowed));
+    }
+    let [a, b] = pair.map(|grain| groups[grain as usize]);
     let (first, second) = (&scene.groups[a], &scene.groups[b]);
     let allowed = match a == b {
         true => {
@@ -90,6 +117,62 @@ pub fn check_overlaps(scene: &Scene, grains: &Grains, groups: &[usize]) -> Resul
     Err(scene
         .document
         .reject(&format!("{}.region", second.key), allowed))
+}
+
+/// Files and lines of grains that stand in the order of their groups.
+struct Lines<'a> {
+    scene: &'a Scene,
+    groups: &'a [usize],
+    /// Index of the first grain of each group.
+    first: Vec<usize>,
+}
+
+impl<'a> Lines<'a> {
+    fn of(scene: &'a Scene, groups: &'a [usize]) -> Self {
+        let first = (0..scene.groups.len()).map(|group| groups.partition_point(|&g| g < group));
+        Self {
+            scene,
+            groups,
+            first: first.collect(),
+        }
+    }
+
+    /// File and line of a grain, if a file lists it.
+    fn at(&self, grain: usize) -> Option<(&'a str, usize)> {
+        let group = self.groups[grain];
+        let given = self.scene.groups[group].given.as_ref()?;
+        let place = given.grains.get(grain - self.first[group])?;
+        Some((&given.file, place.at))
+    }
+}
+
+/// That the grains of files are in the room; `groups` are those of the grains.
+///
+/// # Errors
+/// [`crate::Error::Value`] naming file and line.
+pub fn check_places(scene: &Scene, grains: &Grains, groups: &[usize], room: &Room) -> Result<()> {
+    let lines = Lines::of(scene, groups);
+    for (grain, sphere) in grains.spheres.iter().enumerate() {
+        let Some((file, line)) = lines.at(grain) else {
+            continue;
+        };
+        let centre = grains.room.inside(sphere.centre);
+        let above = scene.container.is_some() && centre.z > room.height;
+        if !room.holds(centre) || above {
+            let [x, y, z] = (sphere.centre * 1e3).to_array();
+            let allowed = format!(
+                "must list grains in the room: {file} has that of line {line} at ({x:.3}, {y:.3}, {z:.3}) mm, outside of the {}; move them (`shift`), or look at `length`",
+                if scene.container.is_some() {
+                    "box"
+                } else {
+                    "domain"
+                }
+            );
+            let key = format!("{}.file.path", scene.groups[groups[grain]].key);
+            return Err(scene.document.reject(&key, allowed));
+        }
+    }
+    Ok(())
 }
 
 /// That no grain is in an outlet from the start; `groups` are those of the grains.
@@ -120,14 +203,10 @@ pub fn check_bodies(scene: &Scene, feed: &Feed, grains: &Grains, machine: &Machi
     let everywhere = [Vector::MIN, Vector::MAX];
     let space = Space::of(everywhere, &Grains::default(), &[], machine);
     for (sphere, &id) in grains.spheres.iter().zip(&grains.ids) {
-        if let Some(body) = space.body_at(sphere.centre, sphere.radius) {
-            return Err(in_the_way(
-                scene,
-                machine,
-                feed.group_of(id),
-                body,
-                sphere.centre,
-            ));
+        let group = feed.group_of(id);
+        let radius = sphere.radius * (1.0 - feed.overlap_of(group));
+        if let Some(body) = space.body_at(sphere.centre, radius) {
+            return Err(in_the_way(scene, machine, group, body, sphere.centre));
         }
     }
     for (index, group) in scene.groups.iter().enumerate() {
@@ -144,7 +223,8 @@ pub fn check_bodies(scene: &Scene, feed: &Feed, grains: &Grains, machine: &Machi
         first.iter().for_each(|one| one.join(&mut batch));
         check_overlaps(scene, &batch, &vec![index; batch.len()])?;
         for sphere in &batch.spheres {
-            let body = space.body_at(sphere.centre, sphere.radius);
+            let radius = sphere.radius * (1.0 - feed.overlap_of(index));
+            let body = space.body_at(sphere.centre, radius);
             if let Some(body) = body.filter(|&body| from_the_start || stays(scene, machine, body)) {
                 return Err(in_the_way(scene, machine, index, body, sphere.centre));
             }

@@ -55,10 +55,8 @@ impl Feed {
         };
         Self {
             seed,
-            sources: scene
-                .groups
-                .iter()
-                .map(|group| Source::of(scene, group))
+            sources: (0..scene.groups.len())
+                .map(|index| Source::of(scene, index))
                 .collect(),
             inflows: (0..scene.groups.len()).map(inflow).collect(),
         }
@@ -99,6 +97,12 @@ impl Feed {
     #[must_use]
     pub fn is_done(&self) -> bool {
         (0..self.inflows.len()).all(|group| !self.inflows[group].active || self.is_complete(group))
+    }
+
+    /// Share of the radius by which grains of a group may overlap with what is there as they come in.
+    #[must_use]
+    pub fn overlap_of(&self, group: usize) -> f64 {
+        self.sources[group].overlap()
     }
 
     /// Group of a grain that was there from the start, by its name.
@@ -183,7 +187,9 @@ impl Feed {
     fn whole(&mut self, index: usize, space: &Space) -> Vec<Newcomer> {
         let before = self.inflows[index];
         let all = self.lattice(index, |_, _| true);
-        if all.iter().all(|one| space.is_free(one.centre, one.radius)) {
+        let share = 1.0 - self.sources[index].overlap();
+        let is_free = |one: &Newcomer| space.is_free(one.centre, share * one.radius);
+        if all.iter().all(is_free) {
             return all;
         }
         self.inflows[index] = before;

@@ -1,6 +1,6 @@
 //! Lattice: places of the grains of one group, its random numbers and its velocities.
 
-use crate::bed::scene::{Group, Scene};
+use crate::bed::scene::{Group, Place, Scene};
 use crate::dem::grains::newcomer::Newcomer;
 use parry3d::math::Vector;
 use rand::{RngExt, SeedableRng};
@@ -19,6 +19,8 @@ const MISSES: usize = 10_000_000;
 pub struct Source {
     /// The group.
     pub group: Group,
+    /// Its index among those of the scene.
+    pub index: u32,
     /// Density of its material, kg/m3.
     pub density: f64,
     /// Lowest and highest corner of where it comes in, m: of its region, else of the box, as high as needed.
@@ -26,11 +28,13 @@ pub struct Source {
 }
 
 impl Source {
-    /// A group of a scene.
+    /// A group of a scene, by its index.
     #[must_use]
-    pub fn of(scene: &Scene, group: &Group) -> Self {
+    pub fn of(scene: &Scene, index: usize) -> Self {
+        let group = &scene.groups[index];
         Self {
             group: group.clone(),
+            index: index as u32,
             density: scene.materials[group.material].material.density,
             corners: floor_and_lid(scene, group),
         }
@@ -44,8 +48,31 @@ impl Source {
             radius,
             density: self.density,
             material: self.group.material as u8,
+            group: self.index,
             velocity,
+            spin: Vector::ZERO,
         }
+    }
+
+    /// Share of its radius by which a grain may overlap with what is there already: none but of a file.
+    #[must_use]
+    pub fn overlap(&self) -> f64 {
+        let given = self.group.given.as_ref();
+        given.map_or(0.0, |given| 2.0 * given.overlap)
+    }
+
+    /// The grains of its file, if it has one.
+    fn given(&self, random: &mut Pcg64Mcg) -> Option<Vec<Newcomer>> {
+        let given = self.group.given.as_ref()?;
+        let newcomer = |place: &Place| Newcomer {
+            spin: place.spin,
+            ..self.newcomer(
+                place.centre,
+                place.radius,
+                place.velocity + self.velocity(random),
+            )
+        };
+        Some(given.grains.iter().map(newcomer).collect())
     }
 
     /// Velocity of a newcomer: that of its group and its stir.
@@ -77,6 +104,12 @@ pub fn lattice(
     mut enough: impl FnMut(Option<&Newcomer>) -> bool,
 ) -> Vec<Newcomer> {
     let group = &source.group;
+    if let Some(given) = source.given(random) {
+        given.iter().for_each(|newcomer| {
+            enough(Some(newcomer));
+        });
+        return given;
+    }
     let [_, largest] = group.sizes.limits();
     let spacing = 2.0 * largest * SPACING;
     let [low, high] = source.corners;

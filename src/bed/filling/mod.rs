@@ -10,7 +10,7 @@ mod space;
 
 pub use self::check::check_bodies;
 
-use self::check::{check_outlets, check_overlaps, check_regions};
+use self::check::{check_outlets, check_overlaps, check_places, check_regions};
 use self::feed::Feed;
 use self::lattice::SPACING;
 use crate::Result;
@@ -65,9 +65,11 @@ pub fn insert(scene: &Scene, seed: u64) -> Result<(Grains, Feed, Room)> {
     let regions = scene.groups.iter().filter_map(|group| group.region);
     let top = regions.fold(top, |top, region| top.max(region.corners()[1].z));
     let [_, largest] = scene.radii();
-    grains.reorder(&Cells::new(&grains.spheres, 2.0 * largest).order());
     // whole layers, so that the room does not depend on the shifts of the last one
     let spacing = 2.0 * largest * SPACING;
     let layers = (top / spacing - 1e-3).ceil().max(0.0);
-    Ok((grains, feed, room_of(scene, layers * spacing)))
+    let room = room_of(scene, layers * spacing);
+    check_places(scene, &grains, &groups, &room)?;
+    grains.reorder(&Cells::new(&grains.spheres, 2.0 * largest).order());
+    Ok((grains, feed, room))
 }

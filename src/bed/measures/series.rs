@@ -23,7 +23,7 @@ pub struct Row {
     pub step: u64,
     /// Time step, s.
     pub time_step_s: f64,
-    /// Height of the piston's face, or of the highest grain while the piston is parked, m.
+    /// Height of the piston's face, or of the highest grain while the piston is parked, m; the period where z is periodic.
     pub height_m: f64,
     /// Compression since the seating stress was reached for good, over the height then.
     pub strain: f64,
@@ -141,17 +141,22 @@ impl Left {
 }
 
 impl View<'_> {
+    /// A body of the box; bodies of the scene may bear such a name where there is no box.
+    fn own(&self, bed: &dyn AnyBed, name: &str) -> Option<usize> {
+        bed.machine().find(name).filter(|_| self.room.owns(name))
+    }
+
     /// Stress on the piston, Pa.
     #[must_use]
     pub fn stress(&self, bed: &dyn AnyBed) -> f64 {
-        let piston = bed.machine().find(PISTON);
+        let piston = self.own(bed, PISTON);
         piston.map_or(0.0, |piston| bed.force_on(piston).z / self.room.area())
     }
 
     /// Height of the piston's face, m.
     #[must_use]
     pub fn face(&self, bed: &dyn AnyBed) -> f64 {
-        let piston = bed.machine().find(PISTON);
+        let piston = self.own(bed, PISTON);
         piston.map_or(self.room.height, |piston| {
             bed.machine().stations[piston].centre.z - 0.5 * self.room.thickness
         })
@@ -171,6 +176,8 @@ impl View<'_> {
         let stress = self.stress(bed);
         let height = if progress.piston_speed > 0.0 {
             self.face(bed)
+        } else if self.room.periodic[2] {
+            self.room.height
         } else if bed.grains().is_empty() {
             0.0
         } else {
@@ -181,7 +188,7 @@ impl View<'_> {
         let volume = self.room.area() * height;
         let sides = 2.0 * (self.room.width + self.room.depth) * height;
         let lateral = |name, axis: usize| {
-            let wall = bed.machine().find(name);
+            let wall = self.own(bed, name);
             wall.map_or(0.0, |wall| bed.force_on(wall)[axis].abs())
         };
         let rate = per(progress.piston_speed, height);

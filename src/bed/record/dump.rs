@@ -6,9 +6,10 @@ use parry3d::math::Vector;
 use std::fmt::Write;
 
 /// Columns after the header.
-const COLUMNS: &str = "id type x y z radius vx vy vz omegax omegay omegaz mass";
+const COLUMNS: &str = "id type x y z radius vx vy vz omegax omegay omegaz mass group";
 
-/// One frame: `ITEM: TIMESTEP` to the last grain, SI units, grains in the order of their names, which count from 1.
+/// One frame: `ITEM: TIMESTEP` to the last grain, SI units, grains in the order of their names. Names, types (the
+/// materials) and groups count from 1.
 ///
 /// The box is the smallest that holds all grains and bodies (`ff`: its sides are open), as other programs need one.
 #[must_use]
@@ -44,8 +45,9 @@ pub fn frame(grains: &Grains, machine: &Machine, step: u64) -> String {
         let (c, v, w) = (sphere.centre, motion.velocity, grains.spins[grain].rate);
         let _ = writeln!(
             text,
-            "{} 1 {:e} {:e} {:e} {:e} {:e} {:e} {:e} {:e} {:e} {:e} {:e}",
+            "{} {} {:e} {:e} {:e} {:e} {:e} {:e} {:e} {:e} {:e} {:e} {:e} {}",
             grains.ids[grain] + 1,
+            u32::from(grains.material(grain)) + 1,
             c.x,
             c.y,
             c.z,
@@ -56,7 +58,8 @@ pub fn frame(grains: &Grains, machine: &Machine, step: u64) -> String {
             w.x,
             w.y,
             w.z,
-            1.0 / motion.inverse_mass
+            1.0 / motion.inverse_mass,
+            grains.groups[grain] + 1
         );
     }
     text

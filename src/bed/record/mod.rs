@@ -15,7 +15,7 @@ use crate::bed::measures::fabric::{Fabric, FabricRow};
 use crate::bed::measures::series::Row;
 use crate::bed::scene::OutputTable;
 use crate::bed::view::film::{Film, Frame};
-use crate::bed::view::page::{shows_most, write_page};
+use crate::bed::view::page::{Names, shows_most, write_page};
 use crate::bed::view::picture::write_animation;
 use crate::dem::dynamics::any::AnyBed;
 use crate::dem::dynamics::contact::ContactRow;
@@ -33,6 +33,7 @@ pub struct Record {
     folder: PathBuf,
     provenance: String,
     settings: OutputTable,
+    names: Names,
     stage: String,
     /// Rows of the stage so far.
     rows: usize,
@@ -44,16 +45,17 @@ pub struct Record {
     dumped: usize,
 }
 keep_fields!(Record: stage, rows, frames, film, stress, bodies, dumped;
-    rebuilt folder, provenance, settings);
+    rebuilt folder, provenance, settings, names);
 
 impl Record {
     /// Nothing yet; files will be in `folder` and CSV files begin with `provenance`.
     #[must_use]
-    pub fn new(folder: &Path, provenance: &str, settings: OutputTable) -> Self {
+    pub fn new(folder: &Path, provenance: &str, settings: OutputTable, names: Names) -> Self {
         Self {
             folder: folder.to_owned(),
             provenance: provenance.to_owned(),
             settings,
+            names,
             stage: String::new(),
             rows: 0,
             frames: Frames::new(&folder.join("vtp")),
@@ -139,7 +141,8 @@ impl Record {
             write_atomic(&path("dump.lammpstrj"), &whole)?;
         }
         if !self.film.is_empty() {
-            write_page(&path("bed.html"), title, summary, &self.film, bed)?;
+            let film = (&self.film, &self.names);
+            write_page(&path("bed.html"), title, summary, film, bed)?;
             if self.settings.animation > 0 {
                 let most = self.settings.animation;
                 write_animation(&path("animation.png"), title, &self.film, bed, most)?;

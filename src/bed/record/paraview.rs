@@ -62,9 +62,10 @@ impl Frames {
     }
 }
 
-/// Grains as points with their radius, motion, forces and plastic dissipation.
+/// Grains as points with their radius, material and group (which count from 0), motion, forces and plastic dissipation.
 fn grains(bed: &dyn AnyBed) -> PolyData {
     let grains = bed.grains();
+    let per = |value: &dyn Fn(usize) -> f64| (0..grains.len()).map(value).collect();
     PolyData {
         points: grains.spheres.iter().map(|s| s.centre).collect(),
         point_data: vec![
@@ -73,6 +74,8 @@ fn grains(bed: &dyn AnyBed) -> PolyData {
                 grains.spheres.iter().map(|s| s.radius).collect(),
             ),
             Column::scalars("id", grains.ids.iter().map(|&id| f64::from(id)).collect()),
+            Column::scalars("material", per(&|grain| f64::from(grains.material(grain)))),
+            Column::scalars("group", per(&|grain| f64::from(grains.groups[grain]))),
             Column::vectors("velocity_m_s", grains.motions.iter().map(|m| m.velocity)),
             Column::vectors("spin_rad_s", grains.spins.iter().map(|s| s.rate)),
             Column::scalars("force_sum_N", bed.squeeze()),

@@ -51,6 +51,10 @@ pub struct Summary {
     pub contact_stiffness: f64,
     /// The same while the packing was made.
     pub settling_stiffness: f64,
+    /// Materials, in the order of their numbers in files.
+    pub materials: Vec<String>,
+    /// Groups of grains, in the order of their numbers in files.
+    pub groups: Vec<String>,
     /// What the measures of the scene have found.
     pub findings: Vec<Finding>,
     /// What must be known before the figures are used.
@@ -117,6 +121,8 @@ impl Summary {
             plastic_share: last.map_or(0.0, Row::plastic_share),
             contact_stiffness: counts.contact_stiffness,
             settling_stiffness: counts.settling_stiffness,
+            materials: Vec::new(),
+            groups: Vec::new(),
             findings: Vec::new(),
             warnings: Vec::new(),
             status: if energy_closure < CLOSURE {

@@ -209,12 +209,7 @@ pub(in crate::bed) fn pack(scene: &Scene, start: &mut Start, options: &Options) 
     let contact = contact.unwrap_or(scene.contact);
     let recipe = recipe(scene, elastic(&scene.materials), &contact);
     let bed = assemble(&recipe, parts(scene, start)?)?;
-    let mut watch = Watch::new(
-        "packing",
-        &folder(options, "packing"),
-        scene.output,
-        options,
-    );
+    let mut watch = Watch::new("packing", &folder(options, "packing"), scene, options);
     let checkpoint = checkpoint("packing", options);
     let plan = format!("{} {:?} packing", scene.hash, options.seed);
     // how fast a packing settles is a means: the usual steps do
@@ -248,7 +243,7 @@ fn under_law(
     };
     let plan = format!("{} {:?} {name} {:?}", scene.hash, options.seed, recipe.laws);
     let bed = assemble(&recipe, parts(scene, start)?)?;
-    let mut watch = Watch::new(name, &folder(options, name), scene.output, options);
+    let mut watch = Watch::new(name, &folder(options, name), scene, options);
     let checkpoint = checkpoint(name, options);
     let terms = Terms::of(scene, steps);
     let flows = (start.feed.clone(), Drain::new(&scene.outlets));
@@ -347,6 +342,8 @@ fn finish(
     summary
         .findings
         .extend(oedometer::findings(rows, material, yields));
+    summary.materials = scene.materials.iter().map(|m| m.name.clone()).collect();
+    summary.groups = scene.groups.iter().map(|g| g.name.clone()).collect();
     summary.warnings = warnings(&run);
     let folder = folder(options, name);
     series::write(&folder.join("bed.csv"), options.provenance, &run.rows)?;

@@ -4,9 +4,10 @@ use super::Options;
 use crate::Result;
 use crate::bed::measures::series::Row;
 use crate::bed::record::Record;
-use crate::bed::scene::{OutputTable, Stage};
+use crate::bed::scene::{Scene, Stage};
 use crate::bed::stages::Observer;
 use crate::bed::view::film::Frame;
+use crate::bed::view::page::Names;
 use crate::dem::dynamics::any::AnyBed;
 use crate::tape::keep_fields;
 use std::path::Path;
@@ -25,10 +26,14 @@ keep_fields!(impl [] Watch<'_>: record, deepest; rebuilt name, progress);
 impl<'a> Watch<'a> {
     /// Watch on the run called `name`, whose files go into `folder`.
     #[must_use]
-    pub fn new(name: &str, folder: &Path, output: OutputTable, options: &Options<'a>) -> Self {
+    pub fn new(name: &str, folder: &Path, scene: &Scene, options: &Options<'a>) -> Self {
+        let names = Names {
+            materials: scene.materials.iter().map(|m| m.name.clone()).collect(),
+            groups: scene.groups.iter().map(|g| g.name.clone()).collect(),
+        };
         Self {
             name: name.to_owned(),
-            record: Record::new(folder, options.provenance, output),
+            record: Record::new(folder, options.provenance, scene.output, names),
             deepest: None,
             progress: options.progress,
         }

@@ -5,6 +5,17 @@ use crate::document::Document;
 use crate::unit::Quantity;
 use parry3d::math::Vector;
 
+/// That a name under `key` is some text, and one that does no harm where it is printed: it may hold blanks, quotes and any script,
+/// but no line ends or other control characters.
+pub(super) fn check_name(document: &Document, key: &str, name: &str) -> Result<()> {
+    if name.trim().is_empty() || name.chars().any(char::is_control) {
+        let allowed =
+            "must be a name of its own: some text without line ends or control characters";
+        return Err(document.reject(key, allowed));
+    }
+    Ok(())
+}
+
 /// What a table is checked against: the document, and the dotted key of the table.
 pub(super) struct At<'a> {
     pub(super) document: &'a Document,

@@ -1,6 +1,6 @@
 //! Bodies of a scene as they are written: one shape, one place, one way to move.
 
-use super::at::At;
+use super::at::{At, check_name};
 use super::drive::{BeltTable, DrivenTable, FreeTable};
 use super::material::GrainMaterial;
 use super::written::vector;
@@ -38,7 +38,7 @@ pub(super) struct BodyTable {
 
 keys! {
     BodyTable "One shape: `block`, `ball`, `cylinder`, `plane`, `cone` or `mesh`. One way to move: fixed, `driven`, a `belt` or `free`." {
-        name: key("name, for stages and files", "a name of its own", "'tube'"),
+        name: key("name, for stages and files", "any, but of a wall of the box", "'tube'"),
         material: key("a body that flattens too", "one of `materials`", "'steel'").or("rigid"),
         block: table("a block").or("one shape"),
         ball: table("a ball").or("one shape"),
@@ -185,9 +185,10 @@ pub(super) fn check_bodies(
     let mut bodies: Vec<Body> = Vec::new();
     for (index, table) in tables.into_iter().enumerate() {
         let key = format!("body[{index}]");
+        check_name(document, &format!("{key}.name"), &table.name)?;
         let taken = bodies.iter().any(|body| body.name == table.name);
-        if taken || table.name.is_empty() || reserved.contains(&&table.name[..]) {
-            let allowed = "must be a name of its own: no other body's, and none of the box's walls";
+        if taken || reserved.contains(&&table.name[..]) {
+            let allowed = "must be a name of its own: no other body's, and none of a wall of the box or its piston";
             return Err(document.reject(&format!("{key}.name"), allowed));
         }
         let at = At {

@@ -1,7 +1,7 @@
 //! Checks of a scene as a whole: its room, and what its stages tell bodies to do.
 
 use crate::Result;
-use crate::bed::scene::{Change, Scene, Stage};
+use crate::bed::scene::{Change, Container, Measure, Scene, Stage};
 use crate::dem::bodies::{Mobility, Solid};
 
 /// Shortest period over the largest radius: twice the distance up to which neighbours are listed.
@@ -14,7 +14,11 @@ impl Scene {
         let document = &self.document;
         let [_, largest] = self.radii();
         let Some(container) = &self.container else {
-            if let Some(group) = self.groups.iter().find(|group| group.region.is_none()) {
+            if let Some(group) = self
+                .groups
+                .iter()
+                .find(|group| group.region.is_none() && group.given.is_none())
+            {
                 let key = format!("{}.region", group.key);
                 return Err(document.reject(&key, "must be there where there is no `[box]`"));
             }
@@ -43,11 +47,19 @@ impl Scene {
                 ));
             }
         }
-        let edges = [container.width, container.depth];
-        for ((edge, periodic), key) in edges
-            .iter()
-            .zip(container.periodic)
-            .zip(["box.width", "box.depth"])
+        if container.periodic[2] {
+            self.check_no_bottom(container)?;
+        }
+        let edges = [
+            container.width,
+            container.depth,
+            container.height.unwrap_or(f64::INFINITY),
+        ];
+        for ((edge, periodic), key) in
+            edges
+                .iter()
+                .zip(container.periodic)
+                .zip(["box.width", "box.depth", "box.height"])
         {
             if periodic && *edge < SHORTEST_PERIOD * largest {
                 let allowed = "must be at least three grain diameters where it is a period, or two grains meet through both sides";
@@ -68,7 +80,8 @@ impl Scene {
                 let x = edge(container.periodic[0], container.width);
                 let y = edge(container.periodic[1], container.depth);
                 // above its rim a box is open
-                ([x, y, [0.0, f64::INFINITY]], "the walls of `[box]`")
+                let z = edge(container.periodic[2], f64::INFINITY);
+                ([x, y, z], "the walls of `[box]`")
             }
             (None, Some([low, high])) => (
                 [0, 1, 2].map(|axis| [low[axis], high[axis]]),
@@ -94,6 +107,48 @@ impl Scene {
                     let key = format!("{}.region", group.key);
                     return Err(self.document.reject(&key, allowed));
                 }
+            }
+        }
+        Ok(())
+    }
+
+    /// That nothing of a scene that is periodic along z needs a floor, a top or a weight.
+    fn check_no_bottom(&self, container: &Container) -> Result<()> {
+        let refuse = |key: &str, allowed: &str| Err(self.document.reject(key, allowed));
+        if container.height.is_none() {
+            return refuse(
+                "box.height",
+                "must be there where z is periodic: it is the period",
+            );
+        }
+        if self.gravity.z != 0.0 {
+            let allowed = "must have no part along z where z is periodic: grains would fall for ever; e.g. \"0 m/s2\"";
+            return refuse("gravity", allowed);
+        }
+        for (index, stage) in self.stages.iter().enumerate() {
+            let key = format!("stage[{index}]");
+            match stage {
+                Stage::Settle { .. } | Stage::Relax { .. } => {}
+                Stage::Compress { .. } | Stage::Unload { .. } => {
+                    let allowed =
+                        "must not be of this kind where z is periodic: there is no piston";
+                    return refuse(&format!("{key}.kind"), allowed);
+                }
+                Stage::Run(run) if run.until.stress.is_some() => {
+                    let allowed = "must be left out where z is periodic: there is no piston";
+                    return refuse(&format!("{key}.until.stress"), allowed);
+                }
+                Stage::Run(_) => {}
+            }
+        }
+        for (index, measure) in self.measures.iter().enumerate() {
+            let key = format!("measure[{index}].kind");
+            match measure {
+                Measure::Repose { .. } | Measure::Slope | Measure::Flow(_) => {
+                    let allowed = "must not be of this kind where z is periodic: it asks what is above and below";
+                    return refuse(&key, allowed);
+                }
+                Measure::Plunge { .. } => {}
             }
         }
         Ok(())

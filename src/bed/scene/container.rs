@@ -19,8 +19,8 @@ pub struct Container {
     pub height: Option<f64>,
     /// Whether a piston hangs under the rim.
     pub piston: bool,
-    /// Whether its sides along x and y are periodic instead of walls.
-    pub periodic: [bool; 2],
+    /// Whether its sides along each axis are periodic instead of walls.
+    pub periodic: [bool; 3],
 }
 
 /// Table `[box]`.
@@ -36,7 +36,7 @@ keys! {
     BoxTable "Its walls are the bodies `left`, `right` (x), `front`, `back` (y) and `floor`; a `piston` hangs under the rim where a stage needs one." {
         width: key("inner edge along x", "≥ 2 grain diameters; 3 if periodic", "'5 mm'"),
         depth: key("inner edge along y", "≥ 2 grain diameters; 3 if periodic", "'5 mm'"),
-        height: key("height of the walls", "> 0", "'25 mm'").or("what the grains need"),
+        height: key("height of the walls; required if periodic", "> 0; 3 grain diameters if periodic", "'25 mm'").or("what the grains need"),
     }
 }
 
@@ -47,9 +47,9 @@ impl BoxTable {
         stages: &[Stage],
         sides: &[String],
     ) -> Result<Container> {
-        if let Some(at) = sides.iter().position(|side| side != "x" && side != "y") {
-            let allowed =
-                "must be \"x\" or \"y\": the sides of the box that are periodic instead of walls";
+        let axes = ["x", "y", "z"];
+        if let Some(at) = sides.iter().position(|side| !axes.contains(&&side[..])) {
+            let allowed = "must be \"x\", \"y\" or \"z\": the sides of the box that are periodic instead of walls";
             return Err(document.reject(&format!("periodic[{at}]"), allowed));
         }
         let uses_piston = |stage: &Stage| match stage {
@@ -59,6 +59,7 @@ impl BoxTable {
             }
             _ => false,
         };
+        let periodic = axes.map(|axis| sides.iter().any(|side| side == axis));
         Ok(Container {
             width: document.positive("box.width", self.width)?,
             depth: document.positive("box.depth", self.depth)?,
@@ -66,8 +67,8 @@ impl BoxTable {
                 Some(height) => Some(document.positive("box.height", height)?),
                 None => None,
             },
-            piston: stages.iter().any(uses_piston),
-            periodic: ["x", "y"].map(|axis| sides.iter().any(|side| side == axis)),
+            piston: !periodic[2] && stages.iter().any(uses_piston),
+            periodic,
         })
     }
 }

@@ -1,5 +1,8 @@
 //! Groups of grains: how many, how large, of what, and how they come into the bed.
 
+use super::at::{At, check_name};
+use super::body::Files;
+use super::given::{FileTable, Given};
 use super::material::GrainMaterial;
 use super::region::Region;
 use super::region::RegionTable;
@@ -13,6 +16,7 @@ use crate::error::must_be_one_of;
 use crate::unit::{Length, Mass, MassRate, Quantity, Velocity};
 use parry3d::math::Vector;
 use serde::Deserialize;
+use std::sync::Arc;
 
 /// Grains of one kind.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,7 +35,9 @@ pub struct Group {
     pub insertion: Insertion,
     /// Where; the container if none.
     pub region: Option<Region>,
-    /// Velocity they come in with, m/s.
+    /// Their places, if a file lists them; they come in all at once then, as a lattice does.
+    pub given: Option<Arc<Given>>,
+    /// Velocity they come in with, m/s; on top of that of their file.
     pub velocity: Vector,
     /// Root mean square of the random velocities on top, along each axis, m/s.
     pub stir: f64,
@@ -84,6 +90,7 @@ pub(super) struct GroupTable {
     region: Option<RegionTable>,
     velocity: Option<[Quantity<Velocity>; 3]>,
     stir: Option<Quantity<Velocity>>,
+    file: Option<FileTable>,
 }
 
 keys! {
@@ -101,6 +108,7 @@ keys! {
         region: table("where they come in; grains begin wholly inside").or("the box (lattice only)"),
         velocity: key("they come in with", "", "['0 m/s', '0 m/s', '-1 m/s']").or("0"),
         stir: key("root mean square of random velocities on top, along each axis", "≥ 0", "'0.2 m/s'").or("0"),
+        file: table("a file that lists the grains and their places; leaves of the keys above name, radius, material, velocity and stir").or("none"),
     }
 }
 
@@ -140,15 +148,22 @@ pub(super) fn check_groups(
     document: &Document,
     tables: OneOrMany<GroupTable>,
     materials: &[GrainMaterial],
+    files: &mut Files,
 ) -> Result<Vec<Group>> {
     let mut groups: Vec<Group> = Vec::new();
     for (key, table) in tables.keyed("grains") {
-        let group = table.check(document, &key, materials)?;
-        if groups.iter().any(|other| other.name == group.name) {
-            let key = format!("{key}.name");
-            return Err(document.reject(&key, "must be given, and another one for every group"));
+        let these = match &table.file {
+            Some(file) => table.listed(file, document, &key, materials, files)?,
+            None => vec![table.check(document, &key, materials)?],
+        };
+        for group in &these {
+            check_name(document, &format!("{key}.name"), &group.name)?;
+            if groups.iter().any(|other| other.name == group.name) {
+                let key = format!("{key}.name");
+                return Err(document.reject(&key, "must be given, and another one for every group"));
+            }
         }
-        groups.push(group);
+        groups.extend(these);
     }
     if groups.is_empty() {
         return Err(document.reject("grains", "must hold at least one group of grains"));
@@ -157,6 +172,80 @@ pub(super) fn check_groups(
 }
 
 impl GroupTable {
+    /// Groups of the grains of a file, one for each material, all of one name.
+    fn listed(
+        &self,
+        file: &FileTable,
+        document: &Document,
+        key: &str,
+        materials: &[GrainMaterial],
+        files: &mut Files,
+    ) -> Result<Vec<Group>> {
+        let GroupTable {
+            name,
+            count,
+            mass,
+            radius,
+            spread,
+            sieve,
+            lognormal,
+            material,
+            insertion,
+            rate,
+            region,
+            velocity,
+            stir,
+            file: _,
+        } = self;
+        let at = |name: &str| format!("{key}.{name}");
+        let told = [
+            ("count", count.is_some()),
+            ("mass", mass.is_some()),
+            ("spread", spread.is_some()),
+            ("sieve", sieve.is_some()),
+            ("lognormal", lognormal.is_some()),
+            ("insertion", insertion.is_some()),
+            ("rate", rate.is_some()),
+            ("region", region.is_some()),
+        ];
+        if let Some((name, _)) = told.iter().find(|(_, told)| *told) {
+            let allowed = "must not stand beside `file`, which lists the grains and their places";
+            return Err(document.reject(&at(name), allowed));
+        }
+        let radius = radius
+            .map(|radius| document.positive(&at("radius"), radius))
+            .transpose()?;
+        let alone = match material {
+            None if materials.len() > 1 => None,
+            _ => Some(self.material(document, key, materials)?),
+        };
+        let stir = stir.map_or(Ok(0.0), |stir| document.non_negative(&at("stir"), stir))?;
+        let key_of_file = at("file");
+        let place = At {
+            document,
+            key: &key_of_file,
+        };
+        let given = file.check(&place, materials, alone, radius, files)?;
+        let group = |(material, given): (usize, Given)| {
+            let radii = given.grains.iter().map(|grain| grain.radius).collect();
+            Group {
+                name: name.clone().unwrap_or_else(|| "grains".to_owned()),
+                key: key.to_owned(),
+                amount: Amount::Count(given.grains.len()),
+                sizes: Sizes::listed(radii),
+                material,
+                insertion: Insertion::Lattice,
+                region: None,
+                given: Some(Arc::new(given)),
+                velocity: velocity.map_or(Vector::ZERO, vector),
+                stir,
+            }
+        };
+        let groups: Vec<Group> = given.into_iter().map(group).collect();
+        check_span(&groups, document, &key_of_file)?;
+        Ok(groups)
+    }
+
     fn check(self, document: &Document, key: &str, materials: &[GrainMaterial]) -> Result<Group> {
         let at = |name: &str| format!("{key}.{name}");
         let insertion = self.insertion(document, key)?;
@@ -176,6 +265,7 @@ impl GroupTable {
             material: self.material(document, key, materials)?,
             insertion,
             region,
+            given: None,
             velocity: self.velocity.map_or(Vector::ZERO, vector),
             stir: self
                 .stir
@@ -225,12 +315,10 @@ impl GroupTable {
         if self.spread.is_some() && self.radius.is_none() {
             return Err(document.reject(&at("spread"), "needs `radius` beside it"));
         }
-        let [smallest, largest] = sizes.limits();
-        if largest > 20.0 * smallest {
-            let allowed = "must span at most a factor of 20: neighbours are searched in cells of the largest grain";
-            return Err(document.reject(key, allowed));
+        match spans_too_much(sizes.limits()) {
+            true => Err(document.reject(key, SPAN)),
+            false => Ok(sizes),
         }
-        Ok(sizes)
     }
 
     fn material(
@@ -268,6 +356,30 @@ impl GroupTable {
             (InsertionName::Lattice, None) => Ok(Insertion::Lattice),
             (InsertionName::Pour, None) => Ok(Insertion::Pour),
         }
+    }
+}
+
+/// What sizes must be.
+const SPAN: &str =
+    "must span at most a factor of 20: neighbours are searched in cells of the largest grain";
+
+fn spans_too_much([smallest, largest]: [f64; 2]) -> bool {
+    largest > 20.0 * smallest
+}
+
+/// That the grains of a file are not too different in size.
+fn check_span(groups: &[Group], document: &Document, key: &str) -> Result<()> {
+    let limits = groups.iter().map(|group| group.sizes.limits());
+    let limits = limits.fold([f64::INFINITY, 0.0f64], |[low, high], [a, b]| {
+        [low.min(a), high.max(b)]
+    });
+    match spans_too_much(limits) {
+        true => {
+            let [low, high] = limits;
+            let allowed = format!("{SPAN}; the file has radii from {low:.3e} to {high:.3e} m");
+            Err(document.reject(&format!("{key}.path"), allowed))
+        }
+        false => Ok(()),
     }
 }
 

@@ -1,5 +1,6 @@
 //! Materials of a scene: constants and the law of each, and the laws the scene is run under.
 
+use super::at::check_name;
 use crate::bed::scene::FITTED;
 use crate::case::ElasticTable;
 use crate::document::Document;
@@ -88,6 +89,7 @@ pub(super) fn check_materials(
             .into_iter()
             .map(|(name, table)| {
                 let key = format!("materials.{name}");
+                check_name(document, &key, &name)?;
                 let SceneMaterialTable { others, flow } = table;
                 others.check(&flow, document, &name, &key)
             })

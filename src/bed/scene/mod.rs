@@ -9,6 +9,7 @@ mod body;
 mod check;
 mod container;
 mod drive;
+mod given;
 mod group;
 mod material;
 mod measure;
@@ -21,6 +22,7 @@ mod written;
 use crate::dem::force::named::Constants;
 use crate::document::keys::{Kind, Value as _, key, keys, table};
 pub use container::Container;
+pub use given::{Given, Place};
 pub use group::{Amount, Group, Insertion};
 pub use material::{GrainMaterial, LawChoice, OWN};
 pub use measure::{Measure, Orifice, Plane};
@@ -133,7 +135,7 @@ keys! {
         laws: key("laws the scene is run under, one after the other from one packing", "`\"fitted\"` or a theory, each once", "['fitted', 'hertz']").or("every material's own `law`"),
         seed: key("of everything random", "≥ 0", "1"),
         gravity: key("along -z, or a vector", "magnitude ≥ 0", "'9.81 m/s2'"),
-        periodic: key("sides of the box that are periodic instead of walls", "`\"x\"`, `\"y\"`", "['x', 'y']").or("none"),
+        periodic: key("sides of the box that are periodic instead of walls; along z without gravity along it", "`\"x\"`, `\"y\"`, `\"z\"`", "['x', 'y']").or("none"),
         material: table("the material, if there is one").or("one of the two required"),
         materials: table("the materials by name, if there are several").or("one of the two required"),
         grains: table("groups of grains"),
@@ -177,9 +179,13 @@ impl Scene {
         let file: SceneFile = document.parse()?;
         let mut files = Files::new();
         let materials = check_materials(document, file.material, file.materials)?;
-        let groups = check_groups(document, file.grains, &materials)?;
+        let groups = check_groups(document, file.grains, &materials, &mut files)?;
         let contact = file.contact.check(document)?;
-        let reserved: Vec<&str> = WALLS.iter().copied().chain([PISTON]).collect();
+        // without a box there is nothing else that could bear such a name
+        let reserved: Vec<&str> = match file.container {
+            Some(_) => standing(&file.periodic).collect(),
+            None => Vec::new(),
+        };
         let smallest = |radius: f64, group: &Group| radius.min(group.sizes.limits()[0]);
         let smallest = groups.iter().fold(f64::INFINITY, smallest);
         let bodies = check_bodies(
@@ -200,10 +206,7 @@ impl Scene {
         let around = Surroundings {
             groups: &groups,
             smallest,
-            periodic: container.map_or([false; 3], |box_| {
-                let [x, y] = box_.periodic;
-                [x, y, false]
-            }),
+            periodic: container.map_or([false; 3], |box_| box_.periodic),
         };
         let outlets = check_outlets(document, file.outlet, &around)?;
         let scene = Scene {
@@ -261,11 +264,15 @@ impl Scene {
     /// # Errors
     /// As [`Periodic::new`].
     pub fn sides(&self) -> Result<Periodic> {
-        let period = self.container.map_or([None; 2], |container| {
-            let edges = [container.width, container.depth];
-            [0, 1].map(|axis| container.periodic[axis].then_some(edges[axis]))
+        let period = self.container.map_or([None; 3], |container| {
+            let edges = [
+                Some(container.width),
+                Some(container.depth),
+                container.height,
+            ];
+            [0, 1, 2].map(|axis| edges[axis].filter(|_| container.periodic[axis]))
         });
-        Periodic::new(Vector::ZERO, [period[0], period[1], None])
+        Periodic::new(Vector::ZERO, period)
     }
 
     /// Whether grains or bodies are of a material.
@@ -309,25 +316,42 @@ impl Scene {
             Mouth::Region(region) => Some(region),
             Mouth::Beyond { .. } => None,
         });
-        let regions = regions.chain(mouths);
-        let corners = regions.map(|region| region.corners()).chain(bodies);
+        let regions = regions.chain(mouths).map(|region| region.corners());
+        let given = self
+            .groups
+            .iter()
+            .filter_map(|group| group.given.as_deref());
+        let given = given.flat_map(|given| &given.grains).map(|grain| {
+            let radius = Vector::splat(grain.radius);
+            [grain.centre - radius, grain.centre + radius]
+        });
+        let corners = regions.chain(given).chain(bodies);
         corners.fold([Vector::MAX, Vector::MIN], |[low, high], [below, above]| {
             [low.min(below), high.max(above)]
         })
     }
 }
 
+/// Names of the bodies of a box that stand.
+fn standing(periodic: &[String]) -> impl Iterator<Item = &'static str> {
+    let open = |side: &str| periodic.iter().any(|axis| axis == side);
+    let (x, y, z) = (open("x"), open("y"), open("z"));
+    let gone = move |name: &str| match name {
+        "left" | "right" => x,
+        "front" | "back" => y,
+        _ => z,
+    };
+    WALLS
+        .into_iter()
+        .chain([PISTON])
+        .filter(move |name| !gone(name))
+}
+
 /// Names of the bodies of a scene, those of its box that stand included.
 fn names(bodies: &[Body], boxed: bool, periodic: &[String]) -> Vec<String> {
-    let gone = |name: &str| match name {
-        "left" | "right" => periodic.iter().any(|side| side == "x"),
-        "front" | "back" => periodic.iter().any(|side| side == "y"),
-        _ => false,
-    };
     let mut names: Vec<String> = bodies.iter().map(|body| body.name.clone()).collect();
     if boxed {
-        let standing = WALLS.iter().chain([&PISTON]).filter(|name| !gone(name));
-        names.extend(standing.map(|&name| name.to_owned()));
+        names.extend(standing(periodic).map(str::to_owned));
     }
     names
 }
@@ -342,7 +366,7 @@ fn check_box(
         Some(table) => Ok(Some(table.check(document, stages, periodic)?)),
         None if periodic.is_empty() => Ok(None),
         None => {
-            let allowed = "needs a `[box]`, whose width and depth are the periods";
+            let allowed = "needs a `[box]`, whose edges are the periods";
             Err(document.reject("periodic", allowed))
         }
     }

@@ -1,6 +1,6 @@
 //! Outlets: where grains leave the bed.
 
-use super::at::At;
+use super::at::{At, check_name};
 use super::group::Group;
 use super::region::{Region, RegionTable};
 use super::written::vector;
@@ -118,7 +118,8 @@ pub(super) fn check_outlets(
         };
         let mouth = table.mouth(&at, around)?;
         let name = table.name.unwrap_or_else(|| "outlet".to_owned());
-        if name.is_empty() || outlets.iter().any(|other| other.name == name) {
+        check_name(document, &at.name("name"), &name)?;
+        if outlets.iter().any(|other| other.name == name) {
             return Err(at.reject("name", "must be given, and another one for every outlet"));
         }
         for group in around.groups {

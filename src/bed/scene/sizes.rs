@@ -3,6 +3,7 @@
 use rand::RngExt;
 use rand_pcg::Pcg64Mcg;
 use statrs::distribution::{ContinuousCDF, Normal};
+use std::sync::Arc;
 
 /// Distribution of radii, m.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,6 +26,8 @@ pub enum Sizes {
         /// Smallest and largest radius, m.
         limits: [f64; 2],
     },
+    /// Radii of a list, each as likely, m, ascending.
+    Listed(Arc<[f64]>),
 }
 
 /// Grains of one radius.
@@ -56,12 +59,20 @@ impl Sizes {
         Sizes::Sieve(by_mass.iter().map(class).collect())
     }
 
+    /// Sizes of a list of radii (m), which must hold one.
+    #[must_use]
+    pub fn listed(mut radii: Vec<f64>) -> Self {
+        radii.sort_unstable_by(f64::total_cmp);
+        Sizes::Listed(radii.into())
+    }
+
     /// Smallest and largest radius, m.
     #[must_use]
     pub fn limits(&self) -> [f64; 2] {
         match self {
             Sizes::Uniform { mean, spread } => [mean * (1.0 - spread), mean * (1.0 + spread)],
             Sizes::LogNormal { limits, .. } => *limits,
+            Sizes::Listed(radii) => [radii[0], radii[radii.len() - 1]],
             Sizes::Sieve(classes) => classes
                 .iter()
                 .fold([f64::INFINITY, 0.0], |[low, high], class| {
@@ -76,6 +87,7 @@ impl Sizes {
         match self {
             Sizes::Uniform { mean, .. } => *mean,
             Sizes::LogNormal { median, .. } => *median,
+            Sizes::Listed(radii) => radii[radii.len() / 2],
             Sizes::Sieve(classes) => classes.iter().map(|class| class.share * class.radius).sum(),
         }
     }
@@ -94,6 +106,7 @@ impl Sizes {
                 });
                 class.or(classes.last()).map_or(0.0, |class| class.radius)
             }
+            Sizes::Listed(radii) => radii[random.random_range(0..radii.len())],
             Sizes::LogNormal {
                 median,
                 deviation,

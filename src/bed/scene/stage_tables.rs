@@ -1,6 +1,6 @@
 //! Stages as they are written, and the order they must follow.
 
-use super::at::At;
+use super::at::{At, check_name};
 use super::drive::{BeltTable, DrivenTable};
 use super::stage::{Change, Duration, Move, RunStage, Stage, Until};
 use crate::Result;
@@ -279,13 +279,17 @@ impl StageTable {
 impl RunTable {
     fn check(self, at: &At, cast: &Cast) -> Result<RunStage> {
         let (document, key) = (at.document, at.key);
+        if let Some(name) = &self.name {
+            check_name(document, &at.name("name"), name)?;
+        }
         Ok(RunStage {
             name: self.name.unwrap_or_else(|| "run".to_owned()),
             insert: self
                 .insert
                 .iter()
-                .map(|group| one_of(at, "insert", group, &cast.groups))
-                .collect::<Result<_>>()?,
+                .map(|group| all_of(at, "insert", group, &cast.groups))
+                .collect::<Result<Vec<_>>>()?
+                .concat(),
             moves: self
                 .moves
                 .into_iter()
@@ -308,6 +312,14 @@ fn some<D>(at: &At, name: &str, quantity: Option<Quantity<D>>) -> Result<Option<
 fn one_of(at: &At, name: &str, wanted: &str, names: &[String]) -> Result<usize> {
     let place = names.iter().position(|name| name == wanted);
     place.ok_or_else(|| at.reject(name, &must_be_one_of(names)))
+}
+
+/// Places of all that have a name: a file of several materials is several groups of one.
+fn all_of(at: &At, name: &str, wanted: &str, names: &[String]) -> Result<Vec<usize>> {
+    let first = one_of(at, name, wanted, names)?;
+    Ok((first..names.len())
+        .filter(|&k| names[k] == wanted)
+        .collect())
 }
 
 fn at_least_one(at: &At, steps: u64) -> Result<u64> {

@@ -465,7 +465,10 @@ impl<'a> Run<'a> {
 
     /// Index of the piston.
     pub(in crate::bed) fn piston(&self) -> Option<usize> {
-        self.bed.machine().find(PISTON)
+        self.bed
+            .machine()
+            .find(PISTON)
+            .filter(|_| self.room.owns(PISTON))
     }
 
     /// Drives the piston along z at `speed` (m/s).

@@ -19,6 +19,10 @@ pub struct Frame {
     pub centres: Vec<[f32; 3]>,
     /// Radii, m.
     pub radii: Vec<f32>,
+    /// Materials, as indices.
+    pub materials: Vec<u8>,
+    /// Groups, as indices.
+    pub groups: Vec<u32>,
     /// Speeds, m/s.
     pub speed: Vec<f32>,
     /// Energy dissipated by plastic flow in the contacts of each grain, J.
@@ -30,7 +34,7 @@ pub struct Frame {
     /// Bodies that have been taken out.
     pub gone: Vec<usize>,
 }
-keep_fields!(Frame: time, stage, ids, centres, radii, speed, plastic, squeeze, poses, gone);
+keep_fields!(Frame: time, stage, ids, centres, radii, materials, groups, speed, plastic, squeeze, poses, gone);
 
 impl Frame {
     /// The bed as it is.
@@ -46,6 +50,8 @@ impl Frame {
             time: bed.clock().1,
             stage: stage.to_owned(),
             ids: order.iter().map(|&i| grains.ids[i]).collect(),
+            materials: order.iter().map(|&i| grains.material(i)).collect(),
+            groups: order.iter().map(|&i| grains.groups[i]).collect(),
             radii: pick(&|i| grains.spheres[i].radius),
             centres: order
                 .iter()

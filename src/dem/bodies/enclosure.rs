@@ -26,8 +26,8 @@ pub struct Room {
     pub thickness: f64,
     /// Whether grains may not go above the height either.
     pub closed: bool,
-    /// Whether the sides along x and y are periodic: no walls, and floor and piston reach beyond them.
-    pub periodic: [bool; 2],
+    /// Whether the sides along each axis are periodic: no walls, and all others reach beyond them.
+    pub periodic: [bool; 3],
 }
 
 impl Room {
@@ -41,7 +41,7 @@ impl Room {
             height,
             thickness,
             closed: false,
-            periodic: [false; 2],
+            periodic: [false; 3],
         }
     }
 
@@ -56,7 +56,7 @@ impl Room {
             height: size.z,
             thickness,
             closed: true,
-            periodic: [false; 2],
+            periodic: [false; 3],
         }
     }
 
@@ -70,10 +70,25 @@ impl Room {
     #[must_use]
     pub fn holds(&self, point: Vector) -> bool {
         let inside = point - self.corner;
-        inside.z >= 0.0
-            && (!self.closed || inside.z <= self.height)
-            && (self.periodic[0] || (0.0..=self.width).contains(&inside.x))
-            && (self.periodic[1] || (0.0..=self.depth).contains(&inside.y))
+        let [x, y, z] = self.periodic;
+        let below = inside.z < 0.0;
+        let above = self.closed && inside.z > self.height;
+        (z || !(below || above || inside.z.is_nan()))
+            && (x || (0.0..=self.width).contains(&inside.x))
+            && (y || (0.0..=self.depth).contains(&inside.y))
+    }
+
+    /// Whether a body of this name is one of the room's own: of its box.
+    #[must_use]
+    pub fn owns(&self, name: &str) -> bool {
+        let [x, y, z] = self.periodic;
+        !self.closed
+            && match name {
+                "left" | "right" => !x,
+                "front" | "back" => !y,
+                "floor" | PISTON => !z,
+                _ => false,
+            }
     }
 
     /// Floor, walls, and the piston parked under the rim.
@@ -82,7 +97,7 @@ impl Room {
         let (h, t) = (self.height, self.thickness);
         let mut bodies = self.walls();
         let beyond = self.periodic.map(|periodic| if periodic { t } else { 0.0 });
-        let beyond = Vector::new(beyond[0], beyond[1], 0.0);
+        let beyond = Vector::from(beyond);
         let mut piston = Body::block(
             PISTON,
             self.corner + Vector::new(0.0, 0.0, h - t) - beyond,
@@ -97,15 +112,18 @@ impl Room {
     #[must_use]
     pub fn walls(&self) -> Vec<Body> {
         let (w, d, h, t) = (self.width, self.depth, self.height, self.thickness);
+        // walls reach beyond sides that are periodic, as the floor does
+        let along = |periodic: bool| if periodic { t } else { 0.0 };
+        let [x, y, z] = self.periodic;
+        let (a, b) = (along(x), along(z));
         let corners = [
             ([-t, -t, -t], [w + t, d + t, 0.0]),
-            ([-t, -t, 0.0], [0.0, d + t, h]),
-            ([w, -t, 0.0], [w + t, d + t, h]),
-            ([0.0, -t, 0.0], [w, 0.0, h]),
-            ([0.0, d, 0.0], [w, d + t, h]),
+            ([-t, -t, -b], [0.0, d + t, h + b]),
+            ([w, -t, -b], [w + t, d + t, h + b]),
+            ([-a, -t, -b], [w + a, 0.0, h + b]),
+            ([-a, d, -b], [w + a, d + t, h + b]),
         ];
-        let [x, y] = self.periodic;
-        let standing = [true, !x, !x, !y, !y];
+        let standing = [!z, !x, !x, !y, !y];
         WALLS
             .iter()
             .zip(corners)

@@ -25,7 +25,7 @@ keep_fields!(Slider: load, compliance);
 keep_fields!(Sphere: centre, radius);
 keep_fields!(Motion: velocity, inverse_mass);
 keep_fields!(Spin: rate, inverse_inertia);
-keep_fields!(Grains: spheres, motions, spins, plastic, ids, named, materials, plastic_gone; rebuilt room);
+keep_fields!(Grains: spheres, motions, spins, plastic, ids, named, materials, groups, plastic_gone; rebuilt room);
 keep_fields!(Push: force, couple, arms);
 keep_fields!(Load: force, torque, power);
 keep_fields!(HalfList: pairs, start, reverse_start, reverse, images);

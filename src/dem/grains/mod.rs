@@ -55,7 +55,9 @@ pub struct Grains {
     pub named: u32,
     /// Material of each grain, as an index; empty while all grains are of material 0.
     pub materials: Vec<u8>,
-    /// The same of grains that have been taken out, J.
+    /// Group each grain came in with, as an index.
+    pub groups: Vec<u32>,
+    /// Energy so dissipated in contacts of grains that have been taken out, J.
     pub plastic_gone: f64,
     /// Sides of the room.
     pub room: Periodic,
@@ -77,6 +79,7 @@ impl Grains {
             inverse_inertia: 1.0 / (0.4 * mass * radius * radius),
         });
         self.plastic.push(0.0);
+        self.groups.push(0);
         if !self.materials.is_empty() {
             self.materials.push(0);
         }
@@ -160,6 +163,7 @@ impl Grains {
         pick(&mut self.spins, old);
         pick(&mut self.plastic, old);
         pick(&mut self.ids, old);
+        pick(&mut self.groups, old);
         if !self.materials.is_empty() {
             pick(&mut self.materials, old);
         }

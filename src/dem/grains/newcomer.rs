@@ -15,8 +15,12 @@ pub struct Newcomer {
     pub density: f64,
     /// Material, as an index into those of the scene.
     pub material: u8,
+    /// Group, as an index into those of the scene.
+    pub group: u32,
     /// Velocity, m/s.
     pub velocity: Vector,
+    /// Angular velocity, rad/s.
+    pub spin: Vector,
 }
 
 impl Newcomer {
@@ -30,7 +34,8 @@ impl Newcomer {
     #[must_use]
     pub fn energy(&self, gravity: Vector, dt: f64) -> f64 {
         let next = self.velocity + gravity * dt;
-        self.mass() * (0.5 * self.velocity.dot(next) - gravity.dot(self.centre))
+        let turning = 0.2 * self.radius * self.radius * self.spin.length_squared();
+        self.mass() * (0.5 * self.velocity.dot(next) + turning - gravity.dot(self.centre))
     }
 
     /// Adds it to the grains.
@@ -39,8 +44,14 @@ impl Newcomer {
             0 => grains.add(self.centre, self.radius, self.density),
             material => grains.add_of(material, self.centre, self.radius, self.density),
         }
+        if let Some(group) = grains.groups.last_mut() {
+            *group = self.group;
+        }
         if let Some(motion) = grains.motions.last_mut() {
             motion.velocity = self.velocity;
+        }
+        if let Some(spin) = grains.spins.last_mut() {
+            spin.rate = self.spin;
         }
     }
 }

@@ -68,6 +68,8 @@ struct Data<'a> {
     /// Lowest and highest corner of what the camera looks at.
     view: [[f32; 3]; 2],
     quantities: Vec<Quantity>,
+    sorts: Vec<Sort<'a>>,
+    kinds: [[f64; 3]; 8],
     decades: f64,
     colours: [[f64; 3]; 7],
     /// Frame the page opens on.
@@ -76,22 +78,94 @@ struct Data<'a> {
     bodies: Vec<ShownBody<'a>>,
 }
 
+/// Names that grains are told apart by, in the order of their indices.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Names {
+    /// Materials.
+    pub materials: Vec<String>,
+    /// Groups.
+    pub groups: Vec<String>,
+}
+
+/// Something that grains are told apart by, each of one kind for good.
+#[derive(Debug, Serialize)]
+struct Sort<'a> {
+    key: &'static str,
+    label: &'static str,
+    names: &'a [String],
+    /// Kind of each of all grains.
+    of: String,
+}
+
+/// Colours of kinds, sRGB: told apart by most eyes (Okabe and Ito 2008), used again from the first on.
+const KINDS: [[f64; 3]; 8] = [
+    [0.90, 0.62, 0.00],
+    [0.34, 0.71, 0.91],
+    [0.00, 0.62, 0.45],
+    [0.94, 0.89, 0.26],
+    [0.00, 0.45, 0.70],
+    [0.84, 0.37, 0.00],
+    [0.80, 0.47, 0.65],
+    [0.60, 0.60, 0.60],
+];
+
+/// What of a grain never changes.
+#[derive(Clone, Copy)]
+struct Nature {
+    radius: f32,
+    material: u8,
+    group: u32,
+}
+
 /// Grains seen in any frame, in the order of their names.
 struct Seen {
     ids: Vec<u32>,
     radii: Vec<f32>,
+    natures: Vec<Nature>,
 }
 
 impl Seen {
     fn in_any(frames: &[Frame]) -> Self {
-        let radii: BTreeMap<u32, f32> = frames
+        let nature = |frame: &Frame, at: usize| Nature {
+            radius: frame.radii[at],
+            material: frame.materials[at],
+            group: frame.groups[at],
+        };
+        let seen: BTreeMap<u32, Nature> = frames
             .iter()
-            .flat_map(|frame| frame.ids.iter().copied().zip(frame.radii.iter().copied()))
+            .flat_map(|frame| {
+                let ids = frame.ids.iter().enumerate();
+                ids.map(move |(at, &id)| (id, nature(frame, at)))
+            })
             .collect();
         Self {
-            ids: radii.keys().copied().collect(),
-            radii: radii.into_values().collect(),
+            ids: seen.keys().copied().collect(),
+            radii: seen.values().map(|nature| nature.radius).collect(),
+            natures: seen.into_values().collect(),
         }
+    }
+
+    /// What there are several kinds of.
+    fn sorts<'a>(&self, names: &'a Names) -> Vec<Sort<'a>> {
+        let kinds = |kind: fn(&Nature) -> u8| encode(self.natures.iter().map(|n| [kind(n)]));
+        let sorts = [
+            Sort {
+                key: "material",
+                label: "material of a grain",
+                names: &names.materials,
+                of: kinds(|nature| nature.material),
+            },
+            Sort {
+                key: "group",
+                label: "group of a grain",
+                names: &names.groups,
+                of: kinds(|nature| nature.group.min(255) as u8),
+            },
+        ];
+        sorts
+            .into_iter()
+            .filter(|sort| sort.names.len() > 1)
+            .collect()
     }
 
     /// Places of the grains of a frame among all; none where they are the first ones.
@@ -104,7 +178,7 @@ impl Seen {
     }
 }
 
-/// Writes the page of a run; `title` and `summary` stand in its corner.
+/// Writes the page of a run from its film, grains told apart by `names`; `title` and `summary` stand in its corner.
 ///
 /// # Errors
 /// [`Error::File`] when a frame cannot be read or the page not written.
@@ -112,7 +186,7 @@ pub fn write_page(
     path: &Path,
     title: &str,
     summary: &str,
-    film: &Film,
+    (film, names): (&Film, &Names),
     bed: &dyn AnyBed,
 ) -> Result<()> {
     let fitting = BUDGET / (GRAIN * film.most_grains().max(1));
@@ -133,6 +207,8 @@ pub fn write_page(
             .map(|frame| shown(frame, bounds[0], size, &quantities, &grains))
             .collect(),
         quantities,
+        sorts: grains.sorts(names),
+        kinds: KINDS,
         decades: DECADES,
         colours: COLOURS,
         bodies: bodies(bed),

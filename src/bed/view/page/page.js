@@ -51,6 +51,13 @@
   /** Buffers of two frames for the grains in both. */
   const pairOf = (first, second, q) => {
     const at = both(first, second);
+    const sort = sortOf(q);
+    if (sort) {
+      const of = once(`kinds ${q}`, () => bytes(sort.of));
+      const pair = pairOf(first, second, bed.quantities[0].key);
+      const kinds = at ? once(`kinds ${q} ${first} ${second}`, () => buffer(picked(of, at.all, 1))) : once(`all ${q}`, () => buffer(of));
+      return { ...pair, levels: [kinds, kinds] };
+    }
     if (!at) {
       return {
         count: Math.min(bed.frames[first].count, bed.frames[second].count), radius: radii,
@@ -147,6 +154,18 @@
       edges: buffer(edges, gl.ELEMENT_ARRAY_BUFFER), ends: edges.length,
     };
   });
+  const sortOf = (key) => bed.sorts.find((sort) => sort.key === key);
+  /** 256 colours: of the kinds one each, of all else a ramp. */
+  const rampOf = (key) => once(`ramp ${key ? "kinds" : ""}`, () => {
+    if (!key) return ramp;
+    const made = new Uint8Array(256 * 4);
+    for (let i = 0; i < 256; i++) {
+      for (let c = 0; c < 3; c++) made[4 * i + c] = Math.round(255 * bed.kinds[i % bed.kinds.length][c]);
+      made[4 * i + 3] = 255;
+    }
+    return made;
+  });
+  const paint = (key) => gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, 256, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, rampOf(key));
   const ramp = new Uint8Array(256 * 4);
   for (let i = 0; i < 256; i++) {
     const place = (i / 255) * (bed.colours.length - 1), low = Math.min(Math.floor(place), bed.colours.length - 2);
@@ -310,8 +329,22 @@
     $("length").textContent = number(length, "m");
   };
   const legend = () => {
-    const chosen = bed.quantities.find((q) => q.key === quantity);
+    const sort = sortOf(quantity);
+    paint(sort && sort.key);
+    const chosen = sort || bed.quantities.find((q) => q.key === quantity);
     $("quantity").textContent = chosen.label;
+    $("scale").hidden = Boolean(sort);
+    if (sort) {
+      $("ticks").replaceChildren(...sort.names.map((name, i) => {
+        const tick = document.createElement("span");
+        const [r, g, b] = bed.kinds[i % bed.kinds.length].map((c) => Math.round(255 * c));
+        const patch = document.createElement("i");
+        patch.style.cssText = `display:inline-block;width:.8em;height:.8em;margin-right:.3em;background:rgb(${r} ${g} ${b})`;
+        tick.append(patch, name);
+        return tick;
+      }));
+      return;
+    }
     const pen = $("scale").getContext("2d");
     for (let x = 0; x < 208; x++) {
       const i = 4 * Math.round((255 * x) / 207);
@@ -332,6 +365,7 @@
   const SECONDS = Math.max(6, Math.min(20, LAST / 8));
   $("frame").max = String(LAST);
   for (const { key, name } of bed.quantities) $("colour").add(new Option(name, key));
+  for (const { key } of bed.sorts) $("colour").add(new Option(key, key));
   $("frame").addEventListener("input", () => { play(false); fresh = false; now = Number($("frame").value); redraw(); });
   $("colour").addEventListener("change", () => { quantity = $("colour").value; legend(); redraw(); });
   for (const id of ["cut", "bodies"]) $(id).addEventListener("input", redraw);

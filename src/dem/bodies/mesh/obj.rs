@@ -32,7 +32,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Facets, String> {
         return Err("is no OBJ file, which is text; export it again".to_owned());
     }
     let text = String::from_utf8_lossy(bytes)
-        .replace("\\\r\n", " ")
+        .replace("\r\n", "\n")
+        .replace('\r', "\n")
         .replace("\\\n", " ");
     let mut corners: Vec<Vector> = Vec::new();
     let mut facets = Facets::default();

@@ -11,6 +11,17 @@ use parry3d::math::Vector;
 const HEADER: usize = 84;
 const FACET: usize = 50;
 
+/// Beginnings of files of other kinds that are given out as STL, and what to do with them.
+const OTHERS: [(&[u8], &str); 7] = [
+    (b"PK\x03\x04", "a ZIP archive (3MF?); unpack it"),
+    (b"\x1f\x8b", "compressed by gzip; unpack it"),
+    (b"ISO-10303-21", "a STEP file; export it as STL"),
+    (b"ply", "a PLY file; export it as STL"),
+    (b"OFF", "an OFF file; export it as STL"),
+    (b"glTF", "a glTF file; export it as STL"),
+    (b"Kaydara FBX", "an FBX file; export it as STL"),
+];
+
 /// Reads a file's bytes.
 ///
 /// # Errors
@@ -28,10 +39,19 @@ pub(super) fn read(bytes: &[u8]) -> Result<Facets, String> {
     }
     let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let first = text.trim_ascii_start();
+    if let Some((_, what)) = OTHERS.iter().find(|(begin, _)| first.starts_with(begin)) {
+        return Err(format!("is no STL file, but {what}"));
+    }
+    // some programs fill the last block of a text with zero bytes
+    let end = text
+        .iter()
+        .rposition(|byte| *byte != 0)
+        .map_or(0, |last| last + 1);
+    let text = &text[..end];
     let solid = first
         .get(..5)
         .is_some_and(|word| word.eq_ignore_ascii_case(b"solid"));
-    if solid && !bytes.contains(&0) {
+    if solid && !text.contains(&0) {
         return ascii(text);
     }
     Err(match binary_length(bytes) {
@@ -152,6 +172,16 @@ impl<'a> Words<'a> {
         one || two
     }
 
+    /// Passes the name behind an `endsolid`, where it has not been left out yet: in a file that stands in one line.
+    fn pass_name(&mut self) {
+        let line = self.at.checked_sub(1).map(|before| self.list[before].0);
+        let is_name =
+            |next: &(usize, &str)| Some(next.0) == line && !next.1.eq_ignore_ascii_case("solid");
+        while self.list.get(self.at).is_some_and(is_name) {
+            self.at += 1;
+        }
+    }
+
     /// Passes `word`.
     fn passes(&mut self, word: &str) -> bool {
         let is = self.is(word);
@@ -185,6 +215,7 @@ fn ascii(bytes: &[u8]) -> Result<Facets, String> {
             }
             ascii_facet(&mut words, &mut facets)?;
         }
+        words.pass_name();
     }
     match words.next() {
         None => Ok(facets),
