@@ -656,7 +656,6 @@ fn what_is_wrong_with_a_file_is_told_by_line_and_what_is_allowed() {
             TYPES,
             &["line 17: found a velocity of 8"],
         ),
-        ("a.data", DATA, "-2 0.3", "-0.2 0.3", TYPES, &[]),
         (
             "a.data",
             DATA,
@@ -747,9 +746,6 @@ fn what_is_wrong_with_a_file_is_told_by_line_and_what_is_allowed() {
             true => (*text).to_owned(),
             false => text.replacen(from, to, 1),
         };
-        if says.is_empty() {
-            continue;
-        }
         let error = match read(name, text.as_bytes(), "", keys) {
             Ok(_) => panic!("{name} was read: {from} -> {to} {keys}"),
             Err(error) => error,
@@ -759,7 +755,7 @@ fn what_is_wrong_with_a_file_is_told_by_line_and_what_is_allowed() {
         }
         refused += 1;
     }
-    assert!(refused >= 55, "{refused}");
+    assert!(refused >= 50, "{refused}");
 }
 
 #[test]

@@ -220,7 +220,7 @@ fn ascii_stl_of_every_dialect() {
         (
             "a facet without a loop",
             first("  outer loop\n", ""),
-            Refused(&["cut off", "outer loop"]),
+            Refused(&["`facet` in line 8", "outer loop"]),
         ),
         (
             "not a word of STL",
@@ -540,12 +540,12 @@ fn obj_of_every_dialect() {
         (
             "a corner that is not there",
             text("f 1 3 4 2", "f 1 3 4 9"),
-            Refused(&["corner `9`", "line 16", "8 corners"]),
+            Refused(&["corner `9`", "line 17", "8 corners"]),
         ),
         (
             "the corner zero",
             text("f 1 3 4 2", "f 0 3 4 2"),
-            Refused(&["corner `0`", "line 16"]),
+            Refused(&["corner `0`", "line 17"]),
         ),
         (
             "further back than there are",
@@ -555,7 +555,7 @@ fn obj_of_every_dialect() {
         (
             "a face of two",
             text("f 1 3 4 2", "f 1 3"),
-            Refused(&["2 corners", "line 16"]),
+            Refused(&["2 corners", "line 17"]),
         ),
         (
             "decimal commas",
@@ -570,7 +570,7 @@ fn obj_of_every_dialect() {
         (
             "a dented face",
             text("f 1 3 4 2", "v 0 4 0\nf 1 3 9 4 2"),
-            Refused(&["not convex", "line 17"]),
+            Refused(&["not convex", "line 18"]),
         ),
         (
             "curves",

@@ -191,7 +191,18 @@ impl<'a> Words<'a> {
 
     /// That `wanted` is not what comes next.
     fn unlike(&self, wanted: &str, facets: &Facets) -> String {
+        // a word that ends too early is where the file ends, too
+        let begins = |found: &str| {
+            wanted
+                .split('`')
+                .any(|word| word != found && word.starts_with(found))
+        };
+        let is_last = self.at + 1 == self.list.len();
         match self.list.get(self.at) {
+            Some((_, found)) if is_last && begins(found) => format!(
+                "is cut off after {} triangles, within `{found}`; export it again",
+                facets.corners.len()
+            ),
             None => format!(
                 "is cut off after {} triangles: it ends where {wanted} is to come; export it again",
                 facets.corners.len()
