@@ -156,7 +156,7 @@ fn bodies_in_the_way_of_grains_or_without_mass_are_refused() {
         "driven = {}\nfree = {",
         &["body[0].free", "one body, one way to move"],
     );
-    refused("\"thing\"", "\"left\"", &["body[0].name", "box's walls"]);
+    refused("\"thing\"", "\"left\"", &["body[0].name", "wall of the box"]);
 }
 
 #[test]
@@ -270,7 +270,7 @@ fn stages_that_cannot_be_are_refused() {
     );
     refused(
         "seed = 3",
-        "seed = 3\nperiodic = [\"z\"]",
+        "seed = 3\nperiodic = [\"w\"]",
         &["periodic[0]", "sides of the box"],
     );
     refused(
