@@ -156,7 +156,11 @@ fn bodies_in_the_way_of_grains_or_without_mass_are_refused() {
         "driven = {}\nfree = {",
         &["body[0].free", "one body, one way to move"],
     );
-    refused("\"thing\"", "\"left\"", &["body[0].name", "wall of the box"]);
+    refused(
+        "\"thing\"",
+        "\"left\"",
+        &["body[0].name", "wall of the box"],
+    );
 }
 
 #[test]
