@@ -610,6 +610,8 @@ fn frame() -> Frame {
         ids: (0..9).collect(),
         centres: vec![[1.0, -2.0, 3.5]; 9],
         radii: vec![0.5; 9],
+        materials: vec![1; 9],
+        groups: vec![0; 9],
         speed: vec![0.25; 9],
         plastic: vec![0.0; 9],
         squeeze: vec![1.0; 9],
