@@ -23,6 +23,7 @@ fn grid(degree: usize) -> Grid {
         growth: 1.15,
         coarse: 0.1,
         dt_share: 1.0,
+        scaled: 0.0,
         remedies: impactlaw::plan::Remedies::NONE,
     }
 }

@@ -21,6 +21,11 @@ pub struct Sample {
     /// Wall force: impulse over the output interval divided by its length, N.
     #[serde(rename = "force_N")]
     pub force_n: f64,
+    /// Friction force in the same way, positive against the direction in which the particle came, N; absent where there is
+    /// no friction.
+    #[serde(rename = "tangential_force_N")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tangential_force_n: Option<f64>,
     /// Outermost radius in contact, m.
     pub contact_radius_m: f64,
     /// Kinetic energy, J.
@@ -83,6 +88,9 @@ pub struct Summary {
     /// Plastic work over incident kinetic energy, W_p/W_i.
     #[serde(deserialize_with = "number_or_null")]
     pub plastic_work_ratio: f64,
+    /// Energy lost in shocks over incident kinetic energy; 0 but in impacts that flatten the body.
+    #[serde(default, deserialize_with = "number_or_null")]
+    pub shock_work_ratio: f64,
     /// Largest imbalance of the energies over the incident kinetic energy.
     #[serde(deserialize_with = "number_or_null")]
     pub energy_closure: f64,

@@ -88,8 +88,8 @@ pub fn text(case: &Case, plans: &[Plan]) -> String {
             "\nV = {} m/s: expect delta* {}, contact radius {}\n  grid      degree {}, {} x {} points a cell piece; cells {} at the pole \
              (a/{:.0}) growing by {} to {}\n  predicted {} points x {} steps = {:.1} s on one core\n",
             p.velocity,
-            length(p.estimate.displacement),
-            length(p.estimate.contact_radius),
+            length(p.estimate.displacement * p.similarity().displacement()),
+            length(p.estimate.contact_radius * p.similarity().radius()),
             g.degree,
             g.points_per_direction,
             g.points_per_direction,

@@ -97,7 +97,7 @@ fn run_solid<M: Constitutive<Solid>>(mesh: Mesh, material: M, job: &Job) -> Vec<
 /// The section: the spline degree that the plan calls for.
 fn run_section<M: Constitutive<Axisymmetric>>(material: M, job: &Job) -> Vec<Record> {
     let &Job { plan, speed, .. } = job;
-    let (grid, layout) = (&plan.grid, plan.scheme.layout);
+    let (grid, layout) = (&plan.laid(), plan.scheme.layout);
     if plan.scheme.reference == Reference::Present {
         return match grid.degree {
             1 => vec![Updated::<M, 1, 4>::new(plan, material, speed).finish()],

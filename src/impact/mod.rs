@@ -89,7 +89,7 @@ fn attempt(
     let moduli = Moduli::new(1.0, material.poisson_ratio);
     let job = &Job {
         plan,
-        speed: plan.velocity / units.speed(),
+        speed: plan.run_velocity / units.speed(),
         checkpoint: checkpoint.map(|c| (c, description(material, radius, plan))),
     };
     match material.flow.filter(|_| plan.plastic) {
@@ -138,7 +138,7 @@ fn simulated(
     let mut seconds = started.elapsed().as_secs_f64();
     let finished = |record: Record| {
         let wall = record.seconds_before + std::mem::take(&mut seconds);
-        let impact = record.impact(material, radius, plan.velocity, wall);
+        let impact = record.impact(material, radius, plan, wall);
         for warning in &impact.summary.warnings {
             tracing::warn!("at {} m/s: {warning}", plan.velocity);
         }

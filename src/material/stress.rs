@@ -225,6 +225,11 @@ impl<F: FlowStress> J2<F> {
     /// The work is the drop of elastic energy at frozen deformation, times $2 \bar\sigma / (\sigma_{trial} +
     /// \sigma_{new})$: exact for proportional flow, where the drop alone overshoots by half a trial step. The mean stress of
     /// the flow $\bar\sigma$ is that from the strain at its beginning to that at its end, at the rate of this return.
+    ///
+    /// The strain that is accumulated is the one that this stress does the work on, $\Delta\varepsilon_p = \Delta w /
+    /// \bar\sigma$, as codes with logarithmic strains have it. The length of the return times $\sqrt{2/3}$ differs from it by
+    /// the elastic strain, to first order $- |s|\ \mathrm{tr}\ n^3 / (\mu\ \mathrm{tr}\ \bar b_e / 3)$: 0.93 Y/E in uniaxial
+    /// compression with $\nu = 0.35$.
     #[inline(always)]
     fn return_to_yield<S: Space>(
         &self,
@@ -258,11 +263,14 @@ impl<F: FlowStress> J2<F> {
         let recip_isochoric = (*recip_cbrt_j * *recip_cbrt_j).recip();
         let b = shape.shifted(mean).scaled(recip_isochoric);
         state.metric = S::pull_back(gradient, *recip_j, &b).where_positive(plastic, &state.metric);
-        state.strain += increment;
         let new_norm = norm * keep;
-        let mid = (first + new_norm) * (safe_norm + new_norm).recip();
-        let drop = (trial.mean - mean) * (1.5 * mu) * mid;
-        let work = drop.where_positive(plastic, Lanes::default());
+        let recip = (safe_norm + new_norm).recip();
+        let mid = (first + new_norm) * recip;
+        let drop = (trial.mean - mean) * (1.5 * mu);
+        let work = (drop * mid).where_positive(plastic, Lanes::default());
+        let gain = (drop * recip * (2.0 * ROOT)).where_positive(plastic, Lanes::default());
+        // within rounding the drop may come out negative
+        state.strain += gain.where_positive(gain, Lanes::default());
         self.flow.remember(increment, dt, work, &mut state.memory);
         Response {
             deviator,

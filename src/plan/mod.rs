@@ -5,6 +5,7 @@
 
 use crate::case::Case;
 use crate::material::flow::YIELD_STRENGTH;
+use crate::material::stress::Moduli;
 use crate::material::{Flow, Material, YIELD_PRESSURE_RATIO};
 use crate::scheme::Scheme;
 use crate::unit::{engineering, significant};
@@ -13,9 +14,12 @@ use std::f64::consts::PI;
 
 mod grid;
 mod predict;
+mod similar;
+pub mod viscosity;
 
 pub use grid::{Grid, Remedies, graded};
 pub use predict::{with_cells, with_prediction};
+pub use similar::Similarity;
 
 /// Part of the sphere that is simulated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -55,6 +59,8 @@ pub struct Estimate {
 pub struct Plan {
     /// Impact speed, m/s.
     pub velocity: f64,
+    /// Speed at which it is run, m/s: of slow elastic impacts that of a faster one that is similar ([`Similarity`]).
+    pub run_velocity: f64,
     /// Angle of the impact velocity from the wall's normal, rad.
     pub angle: f64,
     /// Friction coefficient of the wall.
@@ -85,6 +91,24 @@ pub struct Plan {
     pub steps: u64,
     /// Predicted seconds on one core.
     pub seconds: f64,
+}
+
+impl Plan {
+    /// From what is run to what was asked for.
+    #[must_use]
+    pub fn similarity(&self) -> Similarity {
+        Similarity::between(self.run_velocity, self.velocity)
+    }
+
+    /// The grid as it is laid: mass is scaled for the crate's own scheme only.
+    #[must_use]
+    pub fn laid(&self) -> Grid {
+        let own = self.scheme == Scheme::default() && self.geometry == Geometry::Axisymmetric;
+        Grid {
+            scaled: if own { self.grid.scaled } else { 0.0 },
+            ..self.grid
+        }
+    }
 }
 
 /// Size of an impact from the elastic (Hertz) and the fully plastic limit ([`Material::flattening_limits`]).
@@ -178,25 +202,47 @@ pub fn plans(case: &Case) -> Result<Vec<Plan>> {
 #[must_use]
 pub fn plan(case: &Case, velocity: f64) -> Plan {
     let material = &case.material;
-    let normal = velocity * case.angle.cos();
-    let estimate = estimate(material, normal);
     let geometry = geometry(case);
-    let (effects, plastic) = effects(case, normal);
+    let (mut effects, plastic) = effects(case, velocity * case.angle.cos());
+    // what does not yield is planned as what cannot
+    let elastic = Material {
+        flow: None,
+        ..*material
+    };
+    let acting = if plastic { material } else { &elastic };
+    let asked = velocity;
+    let velocity = if plastic || geometry != Geometry::Axisymmetric {
+        asked
+    } else {
+        let expected = estimate(acting, asked * case.angle.cos()).displacement;
+        similar::run_speed(asked, expected, case.tolerance)
+    };
+    let normal = velocity * case.angle.cos();
+    let estimate = estimate(acting, normal);
     let mut grid = match geometry {
         Geometry::Axisymmetric => grid(&estimate, case, velocity),
         _ => solid_grid(&estimate, case, normal),
     };
-    let severity = severity(material, normal);
+    let severity = severity(acting, normal);
     if geometry != Geometry::Axisymmetric && plastic {
         grid.remedies = Remedies::SOLID;
     } else if severity > LARGE_FROM {
         let cells = cells_per_flat_radius(severity, case.tolerance);
         grid.fine = grid.fine.min(estimate.contact_radius / cells);
         grid.remedies = Remedies::large(estimate.contact_radius / grid.fine);
+        let waves = Moduli::new(material.young_modulus, material.poisson_ratio);
+        grid.dt_share =
+            viscosity::stable_share(normal / waves.dilatational_speed(material.density));
     }
+    if geometry == Geometry::Axisymmetric && severity <= LARGE_FROM {
+        grid = grid.scaled_mass(ADDED_MASS * case.tolerance, estimate.contact_time);
+    }
+    effects.push(mass_scaling(&grid, &estimate));
+    effects.push(similar_impact(asked, velocity, &estimate));
     let ring_time = 1.5 * fundamental_period(material.poisson_ratio);
     let plan = Plan {
-        velocity,
+        velocity: asked,
+        run_velocity: velocity,
         angle: case.angle,
         friction: case.friction,
         geometry,
@@ -257,7 +303,53 @@ fn grid(estimate: &Estimate, case: &Case, velocity: f64) -> Grid {
         growth: 1.15,
         coarse: far_cells(mach, case.tolerance),
         dt_share: 1.0,
+        scaled: 0.0,
         remedies: Remedies::NONE,
+    }
+}
+
+/// Whether a faster impact is run in place of the one asked for.
+fn similar_impact(asked: f64, run: f64, estimate: &Estimate) -> Effect {
+    let on = run != asked;
+    let reason = if on {
+        let error = 45.0 * estimate.displacement.sqrt();
+        format!(
+            "without yield slow impacts are Hertz's: run at {}, F ~ V^1.2, delta ~ V^0.8, t ~ V^-0.2 within {} %",
+            engineering(run, "m/s", 3),
+            significant(error, 2)
+        )
+    } else {
+        "it is run at its own speed".to_owned()
+    };
+    Effect {
+        name: "similar impact",
+        on,
+        reason,
+    }
+}
+
+/// Share of the tolerance that mass scaling may add to the mass.
+const ADDED_MASS: f64 = 0.05;
+
+/// Whether small cells are made heavier.
+fn mass_scaling(grid: &Grid, estimate: &Estimate) -> Effect {
+    let lasts = format!(
+        "the impact takes {} R/c0",
+        significant(estimate.contact_time, 3)
+    );
+    Effect {
+        name: "mass scaling",
+        on: grid.scaled > 0.0,
+        reason: if grid.scaled > 0.0 {
+            format!(
+                "{lasts}, so the inertia of small cells does not matter: {} % of the mass is moved to them, steps are {} times as \
+                 long",
+                significant(100.0 * grid.added_mass(), 2),
+                significant(grid.scaled / grid.fine, 3)
+            )
+        } else {
+            format!("{lasts}, and its cells are not small enough for a gain")
+        },
     }
 }
 
@@ -292,6 +384,7 @@ fn solid_grid(estimate: &Estimate, case: &Case, velocity: f64) -> Grid {
         growth: 1.3,
         coarse: 0.15,
         dt_share: 1.0,
+        scaled: 0.0,
         remedies: Remedies::NONE,
     }
 }

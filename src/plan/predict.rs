@@ -54,7 +54,7 @@ pub fn with_prediction(mut plan: Plan, material: &Material) -> Plan {
     let duration = plan.estimate.contact_time + plan.ring_time;
     let steps = duration / dt;
     let squeezed = steps * squeeze(&plan, material);
-    let speed = plan.velocity / (material.young_modulus / material.density).sqrt();
+    let speed = plan.run_velocity / (material.young_modulus / material.density).sqrt();
     plan.points = points(&plan);
     plan.steps = squeezed as u64;
     let (sweeps, throughput) = if takes_levels(&plan) {
@@ -85,6 +85,7 @@ fn takes_levels(plan: &Plan) -> bool {
 pub fn with_cells(mut plan: Plan, share: f64, material: &Material) -> Plan {
     plan.grid.fine *= share;
     plan.grid.coarse *= share;
+    plan.grid.scaled *= share;
     // smaller cells are squeezed further
     plan.grid.remedies.least_step *= share.min(1.0);
     with_prediction(plan, material)
@@ -139,7 +140,9 @@ fn time_step(plan: &Plan, material: &Material) -> f64 {
     let nu = material.poisson_ratio;
     let speed = ((1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu))).sqrt();
     match plan.scheme.time_step {
-        TimeStep::Stable => 0.87 * plan.grid.dt_share * plan.grid.fine / speed,
+        TimeStep::Stable => {
+            0.87 * plan.grid.dt_share * plan.grid.fine.max(plan.laid().scaled) / speed
+        }
         TimeStep::Fixed(dt) => dt,
     }
 }

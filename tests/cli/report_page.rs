@@ -37,6 +37,7 @@ fn summary(velocity_m_s: f64, status: Status) -> Summary {
         equivalent_plastic_strain: 0.00017,
         plastic_work_ratio: 0.5298,
         energy_closure: 1e-5,
+        shock_work_ratio: 0.0,
         eroded_volume_ratio: 0.0,
         warnings: Vec::new(),
         points: 20_000,

@@ -7,5 +7,6 @@ mod large;
 #[path = "../support/maw_barber_fawcett.rs"]
 mod maw_barber_fawcett;
 mod plastic;
+mod scan;
 mod schemes;
 mod solid;

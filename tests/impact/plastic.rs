@@ -4,7 +4,7 @@ use impactlaw::case::Case;
 use impactlaw::curve::{Impact, Status};
 use impactlaw::impact::simulate;
 use impactlaw::material::flow::LinearHardening;
-use impactlaw::plan::plan;
+use impactlaw::plan::{fundamental_period, plan};
 use serde::Deserialize;
 use std::path::Path;
 
@@ -258,4 +258,129 @@ fn restitution_falls_smoothly_with_the_speed_from_below_the_yield_speed_on() {
         let bend = three[0] - 2.0 * three[1] + three[2];
         assert!(bend.abs() < 0.01, "{bend} in {e:?}");
     }
+}
+
+/// A millimetre sphere, perfectly plastic or with hardening modulus H; stresses in Pa.
+fn sphere(young_modulus: f64, strength: f64, hardening: f64, nu: f64, severity: f64) -> Case {
+    let velocity = (severity * strength / 8000.0).sqrt();
+    let text = format!(
+        "[particle]\nradius = \"1 mm\"\n[material]\ndensity = \"8000 kg/m3\"\nyoung_modulus = \"{young_modulus} Pa\"\n\
+         poisson_ratio = {nu}\nyield_strength = \"{strength} Pa\"\nhardening_modulus = \"{hardening} Pa\"\n\
+         [impact]\nvelocities = [\"{velocity} m/s\"]\n[accuracy]\ntolerance = 0.05\n"
+    );
+    Case::parse(&text, Path::new("sphere.toml")).unwrap()
+}
+
+#[test]
+fn perfectly_plastic_work_is_the_yield_strength_times_the_mean_plastic_strain() {
+    // the strain is the one that the Kirchhoff stress does its work on, averaged over the reference volume:
+    // eps_p = rho V^2/(2 Y) W_p/W_i at every E/Y, where the length of the return is off by 0.93 Y/E
+    for ratio in [20.0, 80.0, 1000.0] {
+        let case = sphere(100e9, 100e9 / ratio, 0.0, 0.35, 0.02);
+        let s = run(&case, case.velocities[0]).summary;
+        let expected = 0.5 * 0.02 * s.plastic_work_ratio;
+        assert!(
+            change(s.equivalent_plastic_strain, expected) < 1e-3,
+            "E/Y {ratio}: {} instead of {expected}",
+            s.equivalent_plastic_strain
+        );
+    }
+}
+
+/// One row of tests/data/reference/fe_quasistatic_hardening.csv.
+#[derive(Deserialize)]
+struct Pressed {
+    #[serde(rename = "E_GPa")]
+    young_modulus: f64,
+    nu: f64,
+    #[serde(rename = "Y_MPa")]
+    strength: f64,
+    #[serde(rename = "H_MPa")]
+    hardening: f64,
+    #[serde(rename = "delta_over_R")]
+    delta_over_r: f64,
+    #[serde(rename = "F_N")]
+    force: f64,
+}
+
+#[test]
+fn hardening_spheres_resist_a_slow_impact_as_finite_elements_say_within_5_percent() {
+    let path = "tests/data/reference/fe_quasistatic_hardening.csv";
+    let rows: Vec<Pressed> = csv::ReaderBuilder::new()
+        .comment(Some(b'#'))
+        .from_path(path)
+        .unwrap()
+        .into_deserialize()
+        .map(Result::unwrap)
+        .collect();
+    for set in rows.chunk_by(|a, b| a.strength == b.strength) {
+        for size in [0.011, 0.02, 0.03, 0.05] {
+            let (displacement, force) = pressed_to(&set[0], size);
+            // between two rows the force is a power of the displacement
+            let k = set.partition_point(|p| p.delta_over_r < displacement);
+            let (a, b) = (&set[k - 1], &set[k.min(set.len() - 1)]);
+            let (a, b) = if k < set.len() {
+                (a, b)
+            } else {
+                (&set[k - 2], a)
+            };
+            let power = (b.force / a.force).ln() / (b.delta_over_r / a.delta_over_r).ln();
+            let expected = a.force * (displacement / a.delta_over_r).powf(power);
+            println!(
+                "Y {} MPa, delta/R {displacement:.4}: {force:.1} N, finite elements {expected:.1} N, {:+.1} %",
+                set[0].strength,
+                100.0 * (force / expected - 1.0)
+            );
+            assert!(change(force, expected) < 0.05);
+        }
+    }
+}
+
+/// Largest displacement of the centre (as the equator's plane; over R) of an impact meant to reach `size`, and the force there:
+/// at rest no inertia adds to it, and what the body rings with is averaged out over half a period.
+fn pressed_to(p: &Pressed, size: f64) -> (f64, f64) {
+    let (strength, hardening) = (1e6 * p.strength, 1e6 * p.hardening);
+    // rho V^2/Y goes with the square of the displacement
+    let severity = 0.0195 * (size / 0.055f64).powi(2);
+    let modulus = 1e9 * p.young_modulus;
+    let case = sphere(modulus, strength, hardening, p.nu, severity);
+    let samples = run(&case, case.velocities[0]).curve.samples;
+    let period = fundamental_period(p.nu) * case.radius / (modulus / 8000.0).sqrt();
+    let most = samples
+        .iter()
+        .max_by(|a, b| (a.centre_displacement_m).total_cmp(&b.centre_displacement_m))
+        .unwrap();
+    let near: Vec<_> = samples
+        .iter()
+        .filter(|s| (s.time_s - most.time_s).abs() <= 0.25 * period)
+        .collect();
+    let force = near.iter().map(|s| s.force_n).sum::<f64>() / near.len() as f64;
+    (most.centre_displacement_m / case.radius, force)
+}
+
+#[test]
+fn heavy_small_cells_change_a_slow_impact_by_less_than_a_tenth_of_the_tolerance() {
+    // a third above the yield speed at E/Y 400: V/c0 is 1.6e-6, and the contact radius 0.005 R
+    let mut case = sphere(100e9, 0.25e9, 0.0, 0.35, 1e-9);
+    case.tolerance = 0.1;
+    let heavy = plan(&case, case.velocities[0]);
+    assert!(heavy.plastic && heavy.grid.scaled > 2.0 * heavy.grid.fine);
+    assert!(heavy.grid.added_mass() <= 0.05 * heavy.tolerance);
+    let mut plain = heavy.clone();
+    plain.grid.scaled = 0.0;
+    let run = |plan| simulate(&case.material, case.radius, plan).impact.summary;
+    let (a, b) = (run(&heavy), run(&plain));
+    assert!((&a.status, &b.status) == (&Status::Ok, &Status::Ok));
+    assert!(2 * a.steps < b.steps, "{} {}", a.steps, b.steps);
+    let off = [
+        change(a.max_force_n, b.max_force_n),
+        change(a.max_displacement_m, b.max_displacement_m),
+        change(a.contact_time_s, b.contact_time_s),
+        (a.restitution - b.restitution).abs(),
+    ];
+    println!("heavy cells change F*, delta*, contact time and e by {off:.5?}");
+    assert!(
+        off.iter().all(|off| *off < 0.1 * heavy.tolerance),
+        "{off:?}"
+    );
 }

@@ -2,7 +2,7 @@
 
 use crate::maw_barber_fawcett::tangential_restitution;
 use impactlaw::case::Case;
-use impactlaw::curve::{Impact, Status};
+use impactlaw::curve::{Impact, Sample, Status};
 use impactlaw::impact::simulate;
 use impactlaw::plan::{Geometry, Plan, plan};
 use std::path::Path;
@@ -59,7 +59,8 @@ fn a_normal_impact_in_three_dimensions_agrees_with_the_axisymmetric_one() {
 fn full_sliding_gives_the_friction_impulse_and_the_spin_that_follows_from_it() {
     let (case, plan) = oblique(70.0, 0.2);
     assert_eq!(plan.geometry, Geometry::Half);
-    let s = run(&case, &plan).summary;
+    let impact = run(&case, &plan);
+    let s = &impact.summary;
     let t = s.tangential.unwrap();
     assert!(change(t.impulse_ratio, 0.2) < 0.004, "{}", t.impulse_ratio);
     let normal = 20.0 * 70f64.to_radians().cos() * (1.0 + s.restitution);
@@ -68,6 +69,13 @@ fn full_sliding_gives_the_friction_impulse_and_the_spin_that_follows_from_it() {
         change(lost, t.impulse_ratio * normal) < 2e-3,
         "{lost} {normal}"
     );
+    // the curve has the force along the wall: it slides, so it is mu F throughout
+    let samples = &impact.curve.samples;
+    let drag = |s: &Sample| s.tangential_force_n.unwrap();
+    let most = samples.iter().fold(0.0, |m: f64, s| m.max(s.force_n));
+    for s in samples.iter().filter(|s| s.force_n > 0.5 * most) {
+        assert!((drag(s) / s.force_n - 0.2).abs() < 0.02, "{s:?}");
+    }
     // the lever is shorter than R by the flattening; the inertia of these coarse cells is up to 4 % above 2/5 m R^2
     let lever = t.angular_velocity_rad_s * case.radius / (2.5 * lost);
     assert!(

@@ -65,6 +65,14 @@ impl<const P: usize> Section<P> {
         self.z.cell_of(z) * self.r.cells() + self.r.cell_of(r)
     }
 
+    /// Shorter side of cell `c`.
+    #[must_use]
+    pub fn least_side(&self, c: usize) -> f64 {
+        let columns = self.r.cells();
+        let size = |(a, b): (f64, f64)| b - a;
+        size(self.r.cell(c % columns)).min(size(self.z.cell(c / columns)))
+    }
+
     /// Cell that carries the material of cell `c`.
     #[must_use]
     pub fn home(&self, c: usize) -> usize {

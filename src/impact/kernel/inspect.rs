@@ -26,6 +26,7 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Keep for Points<S, M, N> {
     fn save(&self, tape: &mut Tape) {
         let Self {
             states,
+            shock,
             cells,
             levels,
             clock,
@@ -39,6 +40,7 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Keep for Points<S, M, N> {
             own_volume: _,
         } = self;
         states.as_slice().save(tape);
+        shock.save(tape);
         clock.save(tape);
         let left = cells.iter().map(|c| (c.first, (c.strength, c.moved)));
         left.collect::<Vec<_>>().save(tape);
@@ -48,6 +50,7 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Keep for Points<S, M, N> {
 
     fn load(&mut self, tape: &mut Tape) -> Option<()> {
         self.states.as_mut_slice().load(tape)?;
+        self.shock.load(tape)?;
         self.clock.load(tape)?;
         let mut left: Vec<(u32, (f64, f64))> = Vec::new();
         left.load(tape)?;

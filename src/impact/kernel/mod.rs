@@ -10,10 +10,12 @@
 mod inspect;
 mod part;
 mod passes;
+mod shock;
 
 pub use inspect::PointView;
 use part::Level;
 pub use part::Part;
+use shock::Shock;
 
 use crate::lanes::{Lanes, WIDTH};
 use crate::material::stress::{Constitutive, Kinematics, Response};
@@ -61,6 +63,8 @@ struct Cell {
     cold: u32,
     /// Reference volume.
     volume: f64,
+    /// Its shorter side before deformation.
+    side: f64,
     /// Share of the stress that it still carries.
     strength: f64,
     /// Mean dilatation of the last sweep.
@@ -121,6 +125,8 @@ pub struct Points<S: Space, M: Constitutive<S>, const N: usize> {
     factors: Vec<Lanes>,
     volumes: Vec<Lanes>,
     states: Vec<M::State>,
+    /// Viscous stress in shocks; holds nothing when off.
+    shock: Shock,
     scratch: Vec<Scratch<S>>,
     /// Forces on the nodes, not yet summed over the lanes: once a sweep instead of once a cell.
     partial: Vec<Lanes>,
@@ -140,6 +146,8 @@ pub struct Sweep {
     pub elastic: f64,
     /// Plastic work of this step.
     pub plastic: f64,
+    /// Work of the viscous stress in the step before.
+    pub shock: f64,
     /// Smallest volume ratio J; NaN as soon as one point's is.
     pub least_j: f64,
 }
@@ -159,6 +167,11 @@ pub enum Purpose {
 }
 
 impl Purpose {
+    /// Whether states move on.
+    fn moves(self) -> bool {
+        matches!(self, Purpose::Step | Purpose::Audit)
+    }
+
     /// Whether the elastic energy is summed.
     fn sums_energy(self) -> bool {
         matches!(self, Purpose::Audit | Purpose::Look)
@@ -174,9 +187,12 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
     const STRIDE: usize = 2 * Self::SIDE * S::DIRECTIONS + S::CURVED as usize;
 
     /// No points yet, on a grid whose cells reach their nodes by `offsets` from the first. `own_volume`: share of the
-    /// volumetric stiffness that acts on each point's own volume ratio.
-    pub fn new(material: M, offsets: [usize; N], own_volume: f64) -> Self {
+    /// volumetric stiffness that acts on each point's own volume ratio. `shocks`: share of the
+    /// stable time step that is taken, for a viscous stress in shocks; none without.
+    pub fn new(material: M, offsets: [usize; N], own_volume: f64, shocks: Option<f64>) -> Self {
+        let dilatational = material.moduli().dilatational_speed(1.0);
         Points {
+            shock: Shock::new(dilatational, shocks),
             cells: Vec::new(),
             levels: vec![Level::default()],
             offsets,
@@ -192,8 +208,8 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
         }
     }
 
-    /// Add the points of one cell. A block that is not full is padded with weightless copies of its last point.
-    pub fn push_cell(&mut self, node: usize, points: &[Point<N>]) {
+    /// Add the points of one cell whose shorter side is `side`. A block that is not full is padded with weightless copies of its last point.
+    pub fn push_cell(&mut self, node: usize, side: f64, points: &[Point<N>]) {
         let first = self.volumes.len() as u32;
         for block in points.chunks(WIDTH) {
             let point = |lane: usize| &block[lane.min(block.len() - 1)];
@@ -207,6 +223,7 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
             let volume = |lane: usize| block.get(lane).map_or(0.0, |p| p.volume);
             self.volumes.push(Lanes::new([0, 1, 2, 3].map(volume)));
             self.states.push(self.material.virgin());
+            self.shock.push();
         }
         let last = self.volumes.len() as u32;
         self.cells.push(Cell {
@@ -215,6 +232,7 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
             last,
             cold: self.cold.len() as u32,
             volume: points.iter().map(|p| p.volume).sum(),
+            side,
             strength: 1.0,
             dilatation: 1.0,
             steepness: 0.0,
@@ -228,13 +246,26 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
         self.cold.extend(points.iter().map(|p| (node as u32, *p)));
     }
 
-    /// Lumped masses of `nodes` nodes (density one).
+    /// Lumped masses of `nodes` nodes at density one.
     #[must_use]
     pub fn nodal_mass(&self, nodes: usize) -> Vec<f64> {
+        self.scaled_mass(nodes, |_| 1.0)
+    }
+
+    /// The same at a `density` that differs from point to point; of the whole the mean stays one.
+    #[must_use]
+    pub fn scaled_mass(&self, nodes: usize, density: impl Fn(&Point<N>) -> f64) -> Vec<f64> {
+        let (mut whole, mut volume) = (0.0, 0.0);
+        for (_, point) in &self.cold {
+            whole += point.volume * density(point);
+            volume += point.volume;
+        }
+        let share = volume / whole;
         let mut mass = vec![0.0; nodes];
         for (node, point) in &self.cold {
+            let weight = point.volume * (share * density(point));
             for (offset, value) in self.offsets.iter().zip(&point.values) {
-                mass[*node as usize + offset] += point.volume * value;
+                mass[*node as usize + offset] += weight * value;
             }
         }
         mass
@@ -269,6 +300,7 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
             + size(&self.factors)
             + size(&self.volumes)
             + size(&self.states)
+            + self.shock.bytes()
             + size(&self.scratch)
             + size(&self.partial)
     }

@@ -15,6 +15,7 @@ use std::ops::Range;
 struct Tally {
     elastic: f64,
     plastic: Lanes,
+    shock: Lanes,
     least: Lanes,
 }
 
@@ -42,12 +43,16 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
         let mut tally = Tally {
             least: Lanes::splat(f64::INFINITY),
             plastic: Lanes::default(),
+            shock: Lanes::default(),
             elastic: 0.0,
         };
         let mut from = cells.start;
         while from < cells.end {
             let to = self.batch(from, cells.end);
             self.gather(from..to, u, &mut tally);
+            if self.shock.is_on() && purpose.moves() {
+                self.damp(from..to, &mut tally);
+            }
             self.respond(from..to, purpose);
             self.answer(from..to, purpose, &mut tally);
             self.scatter(from..to);
@@ -56,6 +61,7 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
         Sweep {
             elastic: tally.elastic,
             plastic: tally.plastic.sum(),
+            shock: tally.shock.sum(),
             least_j: tally.least.min(),
         }
     }
@@ -116,6 +122,20 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
         cells
             .iter()
             .flat_map(|cell| cell.first as usize..cell.last as usize)
+    }
+
+    /// Viscous stresses of a batch of cells, and the work of those before.
+    #[inline(always)]
+    fn damp(&mut self, cells: Range<usize>, tally: &mut Tally) {
+        let cells = &self.cells[cells];
+        let mut scratch = self.scratch.iter();
+        for cell in cells {
+            let dt = self.clock - cell.moved;
+            for (block, s) in (cell.first as usize..cell.last as usize).zip(&mut scratch) {
+                let work = self.shock.follow(block, s.j, cell.side, dt);
+                tally.shock += work * self.volumes[block] * cell.strength;
+            }
+        }
     }
 
     /// Isochoric responses of a batch of cells.
@@ -186,6 +206,7 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
                     tally.elastic += (energy * volume).sum();
                 }
                 let own = (j * j - Lanes::splat(1.0)) * own_bulk;
+                let own = self.shock.added_to(own, block);
                 let tau = (answer.deviator).shifted(j.mul_add(Lanes::splat(pressure), own));
                 scratch.kinematics.gradient = S::first_piola(
                     &tau,
@@ -245,6 +266,7 @@ pub(super) mod tests {
         growth: 1.3,
         coarse: 0.3,
         dt_share: 1.0,
+        scaled: 0.0,
         remedies: Remedies::NONE,
     };
 

@@ -80,15 +80,21 @@ pub fn build<M: Constitutive<Axisymmetric>, const P: usize, const N: usize>(
         let point = |p: &SectionPoint| section.point(home, p.r, p.z, 2.0 * PI * p.r * p.area);
         carried[home].extend(points.iter().map(point));
     }
-    let mut points = Points::new(material, section.offsets(), grid.remedies.own_volume);
+    let remedies = &grid.remedies;
+    let own_volume = remedies.own_volume;
+    let shocks = remedies.is_large().then_some(grid.dt_share);
+    let mut points = Points::new(material, section.offsets(), own_volume, shocks);
     for (c, cell) in carried
         .iter()
         .enumerate()
         .filter(|(_, cell)| !cell.is_empty())
     {
-        points.push_cell(section.first_node(c), cell);
+        points.push_cell(section.first_node(c), section.least_side(c), cell);
     }
-    let mass = points.nodal_mass(section.nodes());
+    let mass = points.scaled_mass(section.nodes(), |p| {
+        let [r, z, _] = p.position;
+        grid.density(section.least_side(section.cell_of(r, z)))
+    });
     let recip_mass = recip_mass(&mass, section.r.functions());
     let mut contact = Contact::new(section.offsets(), contact_tolerance);
     for (p, height) in surface(&section, layout) {
@@ -179,6 +185,7 @@ mod tests {
             growth: 1.2,
             coarse: 0.15,
             dt_share: 1.0,
+            scaled: 0.0,
             remedies: crate::plan::Remedies::NONE,
         }
     }

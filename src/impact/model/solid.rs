@@ -79,13 +79,13 @@ pub fn build<M: Constitutive<Solid>, F: Friction, const P: usize, const N: usize
     let volume = Volume::<P>::new(grid, geometry, mesh.layout);
     let copies = if geometry == Geometry::Half { 2.0 } else { 4.0 };
     let offsets = volume.offsets::<N>();
-    let mut points = Points::new(material, offsets, grid.remedies.own_volume);
+    let mut points = Points::new(material, offsets, grid.remedies.own_volume, None);
     for (c, inside) in mesh.inside(&volume).iter().enumerate() {
         let index = volume.index(c);
         let point = |p: &BallPoint| volume.point(index, p.position, copies * p.volume);
         let cell: Vec<Point<N>> = inside.iter().map(point).collect();
         if !cell.is_empty() {
-            points.push_cell(volume.node(index), &cell);
+            points.push_cell(volume.node(index), grid.fine, &cell);
         }
     }
     let mass = points.nodal_mass(volume.nodes());

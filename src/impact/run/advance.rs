@@ -9,11 +9,12 @@ use crate::impact::wall::meridian::{Touch, Wall};
 use crate::material::stress::Constitutive;
 use crate::space::Space;
 
-/// What an output needs of the levels' sweeps.
+/// What an output needs of the levels' sweeps: elastic energy, and impulses of the steps that are under way.
 #[derive(Debug, Clone, Copy, Default)]
-struct Output {
-    elastic: f64,
-    impulse: f64,
+pub(super) struct Output {
+    pub(super) elastic: f64,
+    pub(super) impulse: f64,
+    pub(super) tangential: f64,
 }
 
 impl<S, M, W, T, const N: usize> Run<'_, S, M, W, T, N>
@@ -34,6 +35,7 @@ where
         self.stepped += points.blocks_of(part);
         let sweep = points.sweep_part(part, purpose, &self.u, force);
         self.plastic += sweep.plastic;
+        self.shock += sweep.shock;
         let least = if self.erosion.is_on() { LEAST_J } else { 0.0 };
         if sweep.least_j > least {
             return sweep;
@@ -74,6 +76,7 @@ where
         if let Some(output) = output {
             output.elastic += sweep.elastic;
             output.impulse += touch.impulse;
+            output.tangential += touch.tangential;
         }
         if level < self.model.points.deepest() {
             self.descend(level + 1, 0.5 * dt, output);
@@ -81,7 +84,7 @@ where
             return;
         }
         if let Some(output) = output.take() {
-            self.record(output.elastic, output.impulse);
+            self.record(&output);
         }
         if level == 0 {
             self.map(dt);

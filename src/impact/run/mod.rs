@@ -56,7 +56,7 @@ keep_fields!(
     impl [S: Space, M: Constitutive<S>, W: Wall<S>, T: Remap<S::Vector>, const N: usize]
     Run<'_, S, M, W, T, N>:
     model, transfer, transferred, u, v, limit, local, dt, time, step, stepped, next_refresh, next_output, impulse, tangential,
-    contact_work, plastic, contact_radius, contact_end, frames, closure, compressed, erosion, start;
+    contact_work, plastic, shock, contact_radius, contact_end, frames, closure, compressed, erosion, start;
     rebuilt plan, speed, old, force, blocks, mass, failure,
 );
 
@@ -93,6 +93,7 @@ where
     tangential: f64,
     contact_work: f64,
     plastic: f64,
+    shock: f64,
     contact_radius: f64,
     contact_end: f64,
     mass: f64,
@@ -141,6 +142,7 @@ where
             tangential: 0.0,
             contact_work: 0.0,
             plastic: 0.0,
+            shock: 0.0,
             contact_radius: 0.0,
             contact_end: 0.0,
             mass,
@@ -232,7 +234,8 @@ where
         self.frames = vec![first];
         (self.time, self.step, self.stepped, self.next_refresh) = (0.0, 0, 0, 0);
         (self.impulse, self.tangential, self.contact_work) = (0.0, 0.0, 0.0);
-        (self.plastic, self.transferred, self.closure) = (0.0, 0.0, 0.0);
+        (self.plastic, self.shock) = (0.0, 0.0);
+        (self.transferred, self.closure) = (0.0, 0.0);
         (self.contact_radius, self.contact_end) = (0.0, 0.0);
     }
 

@@ -1,5 +1,6 @@
 //! Observation: what is kept of a run at its outputs, and what it leaves in the end.
 
+use super::advance::Output;
 use super::record::{Frame, Record, SectionView, Sliding, Snapshot};
 use super::transfer::Remap;
 use crate::curve::Status;
@@ -18,8 +19,13 @@ where
     W: Wall<S>,
     T: Remap<S::Vector>,
 {
-    /// Keep a frame at time n (`impulse` of the step that is under way belongs half to each side).
-    pub(super) fn record(&mut self, elastic: f64, impulse: f64) {
+    /// Keep a frame at time n (impulses of the step that is under way belong half to each side).
+    pub(super) fn record(&mut self, output: &Output) {
+        let Output {
+            elastic,
+            impulse,
+            tangential,
+        } = *output;
         let kinetic: f64 = (self.old.iter().zip(&self.v).zip(&self.model.mass))
             .map(|((a, b), m)| {
                 let mut product = 0.0;
@@ -31,8 +37,8 @@ where
             .sum();
         let incident = self.frames[0].kinetic;
         let given = incident + self.start.elastic + self.contact_work + self.transferred;
-        let balance =
-            kinetic + elastic + self.plastic + self.erosion.energy() - self.start.eroded - given;
+        let lost = self.plastic + self.shock + self.erosion.energy() - self.start.eroded;
+        let balance = kinetic + elastic + lost - given;
         let closure = (balance / incident).abs();
         if !(closure <= UNSTABLE) {
             self.failure = Some(format!(
@@ -49,6 +55,7 @@ where
             displacement: self.start.height - self.mean(&self.u, S::NORMAL),
             centre_displacement: self.start.centre - self.along(centre),
             impulse: self.impulse - 0.5 * impulse,
+            tangential: self.tangential - 0.5 * tangential,
             contact_radius: self.contact_radius,
             kinetic,
             elastic,
@@ -186,6 +193,7 @@ where
             sliding,
             closure: self.closure,
             eroded: self.erosion.volume() / self.mass,
+            shock: self.shock / self.frames[0].kinetic,
             has_poles: !self.erosion.is_on() || [0, 2].into_iter().all(|pole| self.has(pole)),
             plastic_strain: self.model.points.plastic_strain_volume() / self.mass,
             points: self.model.points.count(),

@@ -4,7 +4,9 @@ use crate::curve::{
     Curve, Impact, MapPoint, Part, Particle, ParticleMap, Sample, Status, Summary, Tangential,
 };
 use crate::material::{Material, ReferenceUnits};
+use crate::plan::Plan;
 use crate::tape::keep_fields;
+use crate::unit::engineering;
 
 /// One output in run units (R, R/c0, E R^2, E R^3).
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -17,6 +19,8 @@ pub struct Frame {
     pub centre_displacement: f64,
     /// Wall impulse since first contact.
     pub impulse: f64,
+    /// The same along the wall, in the direction in which the particle came.
+    pub tangential: f64,
     /// Contact radius.
     pub contact_radius: f64,
     /// Kinetic energy.
@@ -102,7 +106,7 @@ impl Snapshot {
     }
 }
 
-keep_fields!(Frame: time, displacement, centre_displacement, impulse, contact_radius, kinetic, elastic, plastic, height);
+keep_fields!(Frame: time, displacement, centre_displacement, impulse, tangential, contact_radius, kinetic, elastic, plastic, height);
 keep_fields!(SectionView: place, plastic_strain, von_mises);
 keep_fields!(Snapshot: points, outline);
 
@@ -123,6 +127,8 @@ pub struct Record {
     pub closure: f64,
     /// Share of the body that lost its strength.
     pub eroded: f64,
+    /// Work of viscous stresses in shocks over the incident kinetic energy.
+    pub shock: f64,
     /// Whether the material at both poles is still there: else nothing is left to measure the height by.
     pub has_poles: bool,
     /// Volume mean of the equivalent plastic strain.
@@ -232,8 +238,15 @@ impl Record {
     }
 
     /// What a reader of the figures has to know.
-    fn warnings(&self) -> Vec<String> {
+    fn warnings(&self, plan: &Plan) -> Vec<String> {
         let mut warnings = Vec::new();
+        if plan.similarity().is_on() {
+            warnings.push(format!(
+                "slower than matters to an elastic particle: run at {}, figures and curve brought back by Hertz's similarity; \
+                 the maps show the run",
+                engineering(plan.run_velocity, "m/s", 3)
+            ));
+        }
         if self.eroded > MUCH_ERODED {
             let share = 100.0 * self.eroded;
             warnings.push(format!(
@@ -275,9 +288,12 @@ impl Record {
 
     /// Curve and figures in SI units.
     #[must_use]
-    pub fn impact(&self, material: &Material, radius: f64, velocity: f64, wall_s: f64) -> Impact {
+    pub fn impact(&self, material: &Material, radius: f64, plan: &Plan, wall_s: f64) -> Impact {
         let units = ReferenceUnits::of(material, radius);
-        let (time, force, energy) = (units.time(), units.force(), units.energy());
+        let like = plan.similarity();
+        let (time, force) = (units.time() * like.time(), units.force() * like.force());
+        let (energy, length) = (units.energy() * like.energy(), radius * like.displacement());
+        let contact_radius = radius * like.radius();
         let mut samples = Vec::with_capacity(self.frames.len());
         for pair in self.frames.windows(2) {
             if pair[0].time > self.contact_end {
@@ -287,10 +303,12 @@ impl Record {
             let middle = |f: fn(&Frame) -> f64| 0.5 * (f(a) + f(b));
             samples.push(Sample {
                 time_s: middle(|f| f.time) * time,
-                displacement_m: middle(|f| f.displacement) * radius,
-                centre_displacement_m: middle(|f| f.centre_displacement) * radius,
+                displacement_m: middle(|f| f.displacement) * length,
+                centre_displacement_m: middle(|f| f.centre_displacement) * length,
                 force_n: (b.impulse - a.impulse) / (b.time - a.time) * force,
-                contact_radius_m: b.contact_radius * radius,
+                tangential_force_n: (self.sliding.as_ref())
+                    .map(|_| (a.tangential - b.tangential) / (b.time - a.time) * force),
+                contact_radius_m: b.contact_radius * contact_radius,
                 kinetic_j: middle(|f| f.kinetic) * energy,
                 elastic_j: middle(|f| f.elastic) * energy,
                 plastic_j: middle(|f| f.plastic) * energy,
@@ -298,28 +316,29 @@ impl Record {
         }
         let incident = self.frames[0].kinetic;
         let last = &self.frames[self.frames.len() - 1];
-        let least_height = 2.0 - self.largest(|f| 2.0 - f.height);
+        let least_height = 2.0 - self.largest(|f| 2.0 - f.height) * like.displacement();
         let height = |found: f64| if self.has_poles { found } else { f64::NAN };
         let summary = Summary {
-            velocity_m_s: velocity,
+            velocity_m_s: plan.velocity,
             restitution: self.exit_speed / self.speed,
             max_force_n: self.max_force() * force,
-            max_displacement_m: self.largest(|f| f.displacement) * radius,
-            max_centre_displacement_m: self.largest(|f| f.centre_displacement) * radius,
-            residual_displacement_m: self.at(self.contact_end, |f| f.displacement) * radius,
+            max_displacement_m: self.largest(|f| f.displacement) * length,
+            max_centre_displacement_m: self.largest(|f| f.centre_displacement) * length,
+            residual_displacement_m: self.at(self.contact_end, |f| f.displacement) * length,
             contact_time_s: self.contact_end * time,
             compression_ratio: 1.0 - 0.5 * height(self.resting_height()),
             height_at_max_compression_ratio: 0.5 * height(least_height),
             equivalent_plastic_strain: self.plastic_strain,
             plastic_work_ratio: last.plastic / incident,
             energy_closure: self.closure,
+            shock_work_ratio: self.shock,
             eroded_volume_ratio: self.eroded,
             points: self.points,
             steps: self.steps,
             wall_s,
-            tangential: self.sliding.map(|s| s.figures(radius, radius / time)),
+            tangential: self.sliding.map(|s| s.figures(radius, units.speed())),
             particle: Some(Particle::of(material, radius)),
-            warnings: self.warnings(),
+            warnings: self.warnings(plan),
             status: self.status.clone(),
         };
         Impact {
