@@ -237,8 +237,8 @@ pub fn plan(case: &Case, velocity: f64) -> Plan {
     if geometry == Geometry::Axisymmetric && severity <= LARGE_FROM {
         grid = grid.scaled_mass(ADDED_MASS * case.tolerance, estimate.contact_time);
     }
-    effects.push(mass_scaling(&grid, &estimate));
-    effects.push(similar_impact(asked, velocity, &estimate));
+    effects.push(similar::mass_scaling(&grid, &estimate));
+    effects.push(similar::similar_impact(asked, velocity, &estimate));
     let ring_time = 1.5 * fundamental_period(material.poisson_ratio);
     let plan = Plan {
         velocity: asked,
@@ -308,50 +308,8 @@ fn grid(estimate: &Estimate, case: &Case, velocity: f64) -> Grid {
     }
 }
 
-/// Whether a faster impact is run in place of the one asked for.
-fn similar_impact(asked: f64, run: f64, estimate: &Estimate) -> Effect {
-    let on = run != asked;
-    let reason = if on {
-        let error = 45.0 * estimate.displacement.sqrt();
-        format!(
-            "without yield slow impacts are Hertz's: run at {}, F ~ V^1.2, delta ~ V^0.8, t ~ V^-0.2 within {} %",
-            engineering(run, "m/s", 3),
-            significant(error, 2)
-        )
-    } else {
-        "it is run at its own speed".to_owned()
-    };
-    Effect {
-        name: "similar impact",
-        on,
-        reason,
-    }
-}
-
 /// Share of the tolerance that mass scaling may add to the mass.
 const ADDED_MASS: f64 = 0.05;
-
-/// Whether small cells are made heavier.
-fn mass_scaling(grid: &Grid, estimate: &Estimate) -> Effect {
-    let lasts = format!(
-        "the impact takes {} R/c0",
-        significant(estimate.contact_time, 3)
-    );
-    Effect {
-        name: "mass scaling",
-        on: grid.scaled > 0.0,
-        reason: if grid.scaled > 0.0 {
-            format!(
-                "{lasts}, so the inertia of small cells does not matter: {} % of the mass is moved to them, steps are {} times as \
-                 long",
-                significant(100.0 * grid.added_mass(), 2),
-                significant(grid.scaled / grid.fine, 3)
-            )
-        } else {
-            format!("{lasts}, and its cells are not small enough for a gain")
-        },
-    }
-}
 
 /// Three dimensions where friction acts, with as many planes of symmetry as the impact has.
 fn geometry(case: &Case) -> Geometry {

@@ -9,6 +9,9 @@
 //! (`tests/impact/elastic.rs`), at most 0.45 of it in F*, 0.3 in $\delta$* and contact time. At V that is less. The speed is chosen so
 //! that this error is half of the tolerance at most.
 
+use super::{Effect, Estimate, Grid};
+use crate::unit::{engineering, significant};
+
 /// Share of $\sqrt{\delta/R}$ that the largest force differs from Hertz's by, at most.
 const OFF_HERTZ: f64 = 0.45;
 /// Share of the tolerance that the difference may take.
@@ -85,5 +88,47 @@ pub fn run_speed(velocity: f64, displacement: f64, tolerance: f64) -> f64 {
         run
     } else {
         velocity
+    }
+}
+
+/// Whether a faster impact is run in place of the one asked for.
+pub(super) fn similar_impact(asked: f64, run: f64, estimate: &Estimate) -> Effect {
+    let on = run != asked;
+    let reason = if on {
+        let error = 45.0 * estimate.displacement.sqrt();
+        format!(
+            "without yield slow impacts are Hertz's: run at {}, F ~ V^1.2, delta ~ V^0.8, t ~ V^-0.2 within {} %",
+            engineering(run, "m/s", 3),
+            significant(error, 2)
+        )
+    } else {
+        "it is run at its own speed".to_owned()
+    };
+    Effect {
+        name: "similar impact",
+        on,
+        reason,
+    }
+}
+
+/// Whether small cells are made heavier.
+pub(super) fn mass_scaling(grid: &Grid, estimate: &Estimate) -> Effect {
+    let lasts = format!(
+        "the impact takes {} R/c0",
+        significant(estimate.contact_time, 3)
+    );
+    Effect {
+        name: "mass scaling",
+        on: grid.scaled > 0.0,
+        reason: if grid.scaled > 0.0 {
+            format!(
+                "{lasts}, so the inertia of small cells does not matter: {} % of the mass is moved to them, steps are {} times as \
+                 long",
+                significant(100.0 * grid.added_mass(), 2),
+                significant(grid.scaled / grid.fine, 3)
+            )
+        } else {
+            format!("{lasts}, and its cells are not small enough for a gain")
+        },
     }
 }
