@@ -66,6 +66,7 @@ namespace ContactModels
       }
       law_middle(&m, arms, middle);
       law_slip(&m, arms, middle, slip);
+      law_lay_across(slip, m.normal);
       const double stiffness = sidata.Fn > 0.0 ? sidata.kt : 0.0;
       const double limit = effects.friction * sidata.Fn;
       double pull[3], couple[3];
