@@ -28,11 +28,22 @@ pub(super) fn edge(
     dt: f64,
     touched: bool,
 ) -> f64 {
+    let kick = pressed.force * dt * inverse_mass;
+    if pressed.depth > (approach.abs() + kick) * dt * (1.0 + ROUNDING) {
+        return f64::INFINITY;
+    }
+    near_an_edge(pressed, [approach, kick], dt, touched)
+}
+
+/// The same for a contact shallow enough.
+#[cold]
+#[inline(never)]
+fn near_an_edge(pressed: &Pressed, [approach, kick]: [f64; 2], dt: f64, touched: bool) -> f64 {
     // going apart, the step to come is the one in question: as long as it will be under this force
     let speed = if approach > 0.0 {
         approach
     } else {
-        pressed.force * dt * inverse_mass - approach
+        kick - approach
     };
     let way = speed * dt * (1.0 + ROUNDING);
     let begins_or_ends = approach <= 0.0 || !touched;

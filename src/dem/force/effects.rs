@@ -107,14 +107,22 @@ impl Contact<'_> {
         self.passing - turning.cross(m.middle)
     }
 
-    /// Power (W) of the force across the normal of the step before at this `slip` (m/s).
+    /// A vector laid across the present normal.
+    #[inline(always)]
+    #[must_use]
+    pub fn laid_across(&self, vector: Vector) -> Vector {
+        let normal = self.meeting.normal;
+        vector - normal * vector.dot(normal)
+    }
+
+    /// Power (W) of the force across the normal of the step before at this `slip` (m/s), which is laid across the present one.
     #[inline(always)]
     #[must_use]
     pub fn past_power(&self, slip: Vector) -> f64 {
-        let (force, normal, middle) = (self.before.force, self.meeting.normal, self.middle);
-        // the normal was the present one reflected, and the slip is across the middle of both
-        let normal_force = 2.0 * middle.dot(normal) * force.dot(middle) - force.dot(normal);
-        force.dot(slip) + normal_force * normal.dot(slip)
+        // what of the force before is not across the present normal is across the slip
+        let before = self.before.force;
+        let pushed = before - self.middle * (2.0 * before.dot(self.middle));
+        pushed.dot(slip)
     }
 
     /// A vector across the normal of the step before, turned with the contact: as the normal has turned, and about it by what
@@ -127,7 +135,7 @@ impl Contact<'_> {
     pub fn turned(&self, vector: Vector) -> Vector {
         let m = self.meeting;
         let turned = vector - self.middle * (2.0 * vector.dot(self.middle));
-        let across = turned - m.normal * turned.dot(m.normal);
+        let across = self.laid_across(turned);
         let twist = 0.5 * m.dt * (m.spins[0] + m.spins[1]).dot(self.middle);
         across * (1.0 - 0.5 * twist * twist) + m.normal.cross(across) * twist
     }
@@ -387,17 +395,16 @@ impl<L: EffectList> ContactLaw for Law<L> {
     }
 }
 
-/// $1/\sqrt{x}$ by Newton's method: of a length that a step changes little, without a root and a division.
+/// $1/\sqrt{x}$ of a length that a step changes little, without a root and a division: two terms of the series and a step of
+/// Newton's method, right to rounding.
 #[inline(always)]
 fn inverse_root_near_one(x: f64) -> f64 {
-    if (x - 1.0).abs() > 0.1 {
+    let off = x - 1.0;
+    if off.abs() > 1e-3 {
         return 1.0 / x.sqrt();
     }
-    let mut y = 1.5 - 0.5 * x;
-    for _ in 0..3 {
-        y *= 1.5 - 0.5 * x * y * y;
-    }
-    y
+    let near = 1.0 - off * (0.5 - 0.375 * off);
+    near * (1.5 - 0.5 * x * near * near)
 }
 
 /// Distances from the centres to the point of contact; none for a surface, whose turning is in its velocity.

@@ -107,7 +107,7 @@ impl Effect for Mindlin {
     #[inline(always)]
     fn act(&self, contact: &mut Contact, spring: &mut Slider, losses: &mut Losses) {
         let m = contact.meeting;
-        let slip = contact.slip();
+        let slip = contact.laid_across(contact.slip());
         let stiffness = if contact.normal_force > 0.0 {
             self.stiffness(contact.pressed.contact_radius, m)
         } else {
@@ -115,12 +115,11 @@ impl Effect for Mindlin {
         };
         let limit = self.friction * contact.normal_force;
         let held = contact.turned(spring.load);
-        let slide = spring.advance(held, slip * m.dt, m.normal, stiffness, limit);
+        let slide = spring.advance(held, slip * m.dt, stiffness, limit);
         losses.friction += slide.loss;
         let mut force = spring.load;
         if contact.dashpot > 0.0 {
-            let damped = slip - m.normal * slip.dot(m.normal);
-            force -= damped * (contact.dashpot * (stiffness / m.inverse_mass).sqrt());
+            force -= slip * (contact.dashpot * (stiffness / m.inverse_mass).sqrt());
             let size = force.length_squared();
             if size > limit * limit {
                 force *= limit / size.sqrt();

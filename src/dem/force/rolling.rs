@@ -76,6 +76,7 @@ impl Effect for RollingSpring {
         let radius = m.effective_radius();
         let relative = m.spins[0] - m.spins[1];
         let rolling = relative - contact.middle * relative.dot(contact.middle);
+        let rolling = contact.laid_across(rolling);
         let stiffness = if force > 0.0 {
             self.shear.stiffness(contact.pressed.contact_radius, m) * radius * radius
         } else {
@@ -83,7 +84,7 @@ impl Effect for RollingSpring {
         };
         let limit = self.resistance * radius * force;
         let held = contact.turned(spring.load);
-        let slide = spring.advance(held, rolling * m.dt, m.normal, stiffness, limit);
+        let slide = spring.advance(held, rolling * m.dt, stiffness, limit);
         losses.rolling += slide.loss;
     }
 

@@ -32,19 +32,11 @@ impl Slider {
     }
 
     /// Advances by `stretch` (m or rad) with the present `stiffness`, up to `limit`; `held` is the load turned to where it acts
-    /// now, across `normal`, and what of the stretch is not across it does not count.
+    /// now. Both lie across the present normal.
     #[inline(always)]
-    pub fn advance(
-        &mut self,
-        held: Vector,
-        stretch: Vector,
-        normal: Vector,
-        stiffness: f64,
-        limit: f64,
-    ) -> Slide {
+    pub fn advance(&mut self, held: Vector, stretch: Vector, stiffness: f64, limit: f64) -> Slide {
         let stored = self.energy();
         let softened = (stiffness * self.compliance).min(1.0);
-        let stretch = stretch - normal * stretch.dot(normal);
         let mut load = held * softened - stretch * stiffness;
         let size = load.length_squared();
         if size > limit * limit {
