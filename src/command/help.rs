@@ -7,10 +7,11 @@ use crate::{Error, Result};
 use clap::Args;
 use std::fmt::Write;
 
-/// Print the help of a verb, or every key of an input file: `case`, `study`, `scene` or `law`.
+/// Print the help of a verb, every key of an input file (`case`, `study`, `scene`, `law`), or a key by its name.
 #[derive(Debug, Args)]
 pub struct HelpArgs {
-    /// Verb (`bed export`), or file and, if wanted, a part of the headings of its tables (`scene body.free`).
+    /// Verb (`bed export`); file and, if wanted, a part of the headings of its tables (`scene body.free`); or key
+    /// (`restitution`).
     pub topic: Vec<String>,
     /// Print the keys of all files as Markdown: the guide's reference.
     #[arg(long, conflicts_with = "topic")]
@@ -22,6 +23,7 @@ impl Command for HelpArgs {
         "impactlaw help run",
         "impactlaw help case",
         "impactlaw help scene grains",
+        "impactlaw help restitution",
         "impactlaw help --markdown > src/guide/keys.md",
     ];
 
@@ -50,20 +52,41 @@ pub fn text(mut verb: clap::Command, topic: &[String]) -> Result<String> {
     let verbs = verb
         .get_subcommands()
         .map(|verb| verb.get_name().to_owned());
-    let names: Vec<String> = verbs
+    let mut names: Vec<String> = verbs
         .chain(FILES.map(|kind| kind.name.to_owned()))
         .collect();
+    names.sort();
     let file = FileKind::named(first);
     let found = topic
         .iter()
         .try_fold(&mut verb, |verb, word| verb.find_subcommand_mut(word));
     let verb = found.map(|verb| verb.render_long_help().to_string());
     match (verb, file) {
-        (None, Err(_)) => Err(Error::not_one_of("help", &topic.join(" "), names)),
+        (None, Err(_)) => of_key(&topic.join(" "), names),
         (Some(verb), Err(_)) => Ok(verb),
         (None, Ok(file)) => of_file(&file, &topic[1..].join(" ")),
         (Some(verb), Ok(file)) => Ok(format!("{verb}\n{}", of_file(&file, "")?)),
     }
+}
+
+/// A key by its name, wherever a file has it.
+fn of_key(name: &str, mut names: Vec<String>) -> Result<String> {
+    let mut text = String::new();
+    for file in FILES {
+        let root = file.table();
+        for section in reference::sections(&root) {
+            if let Some(key) = section.table.key(name) {
+                let place = section.opening.join("  ");
+                let _ = writeln!(text, "{} file  {place}", file.name);
+                text.push_str(&reference::wrapped(&reference::sentence(key), 80, "    "));
+            }
+        }
+    }
+    if text.is_empty() {
+        names.dedup();
+        return Err(Error::not_one_of("help", name, names));
+    }
+    Ok(text)
 }
 
 /// The keys of a file.

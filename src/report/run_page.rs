@@ -84,10 +84,14 @@ pub struct RunPage<'a> {
 }
 
 /// Symbols of tables and figures.
-const SYMBOLS: [(&str, &str); 8] = [
+const SYMBOLS: [(&str, &str); 9] = [
     (
         "V, e",
         "impact speed; restitution: speed of the centre of mass after the impact over that before",
+    ),
+    (
+        "V_y",
+        "speed at first yield: Hertz’s largest pressure reaches 1.6 Y",
     ),
     (
         "δ",

@@ -201,6 +201,14 @@ fn help_of_every_file_fits_a_terminal_of_80_columns() {
         "{part}"
     );
     assert!(help::text(Cli::command(), &["scene".to_owned(), "nothing".to_owned()]).is_err());
+    let key = help::text(Cli::command(), &["restitution".to_owned()]).unwrap();
+    for place in [
+        "scene file  [contact]",
+        "scene file  [[pair]]",
+        "law file  [[closed_form.quality]]",
+    ] {
+        assert!(key.contains(place), "{place}: {key}");
+    }
     assert!(help::text(Cli::command(), &["nothing".to_owned()]).is_err());
 }
 

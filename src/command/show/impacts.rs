@@ -48,6 +48,7 @@ pub fn choices(case: &Case, plans: &[Plan]) -> Vec<Choice> {
             true => reason.to_owned(),
             false => format!("{} m/s: {reason}", speeds.join(", ")),
         };
+        let reason = reason.replace("rho V^2", "ρV²");
         let known = |other: &&mut Choice| other.what == name && other.setting == setting;
         match choices.iter_mut().find(known) {
             Some(choice) => choice.reason = format!("{}; {reason}", choice.reason),
