@@ -122,11 +122,11 @@ fn no_input_makes_a_reader_panic_hang_or_fill_the_memory() {
     std::thread::scope(|scope| {
         scope.spawn(|| watch(&now, &done));
         let _watch = Watch(&done);
-        for index in 0..READERS.len() {
+        for (index, reader) in READERS.iter().enumerate() {
             let began = Instant::now();
             let (found, [count, accepted]) = attack(index, &now);
             let seconds = began.elapsed().as_secs_f64();
-            let name = READERS[index].name;
+            let name = reader.name;
             println!(
                 "{name:26} {count:8} inputs {accepted:8} accepted {seconds:7.1} s {} faults",
                 found.len()

@@ -321,6 +321,9 @@ fn vtp_of_other_programs_lists_the_same_grains() {
     );
 }
 
+/// Name of a file, its text, what is replaced in it by what, further keys of the scene, and parts of the message.
+type Malformed<'a> = (&'a str, &'a str, &'a str, &'a str, &'a str, &'a [&'a str]);
+
 #[test]
 fn what_is_wrong_with_a_file_is_told_by_line_and_what_is_allowed() {
     let csv =
@@ -332,8 +335,7 @@ fn what_is_wrong_with_a_file_is_told_by_line_and_what_is_allowed() {
         &["1 1 0.005 0.006 0.007 0.001", "2 2 0.01 0.0125 0.02 0.0015"],
     );
     let dump = &dump[..];
-    let cases: &[(&str, &str, &str, &str, &str, &[&str])] = &[
-        // name, text, from, to, keys, says
+    let cases: &[Malformed] = &[
         (
             "a.csv",
             csv,

@@ -131,9 +131,9 @@ fn the_page_colours_by_material_and_group() {
     // the visitor looks at what is called plastic: let that be the materials, then the groups
     let mut sums = Vec::new();
     for kind in ["plastic", "material", "group"] {
-        let script = page.replace("</body>", &format!(
-            "<script>addEventListener('change', (event) => {{ if (event.target.id === 'colour') window.shown = document.getElementById('ticks').textContent; }});</script></body>"
-        ));
+        let listener = "<script>addEventListener('change', (event) => { if (event.target.id === 'colour') window.shown = \
+            document.getElementById('ticks').textContent; });</script></body>";
+        let script = page.replace("</body>", listener);
         let told = visit_with(&browser, &script, kind);
         assert_eq!(told["complaints"], serde_json::json!([]), "{told}");
         sums.push(told["plastic"]["sum"].as_u64().unwrap());

@@ -85,7 +85,10 @@ fn a_grain_of_any_size_rolls_off_the_neck_of_two_balls_and_drops() {
     }
 }
 
-fn sticking() -> Law<((((), Viscous), Mindlin), RollingSpring)> {
+/// Damping, friction and rolling resistance.
+type Sticking = Law<((((), Viscous), Mindlin), RollingSpring)>;
+
+fn sticking() -> Sticking {
     Law::smooth()
         .with(Viscous::new(0.5))
         .with(Mindlin::new(&MATERIAL, 0.5))

@@ -146,7 +146,7 @@ impl<W: Spelling> FlowConstants<W> {
             let strength = W::key(&YIELD_STRENGTH);
             let allowed =
                 format!("needs a `{strength}` beside it: without one the body is elastic");
-            return Err(Refused(*first, allowed));
+            return Err(Refused(Box::new(*first), allowed));
         }
         let acts = |(constant, value): &&(Constant, f64)| !constant.may_be_absent || *value != 0.0;
         let acting: Vec<Constant> = self.values.iter().filter(acts).map(|(c, _)| *c).collect();
@@ -166,7 +166,7 @@ impl<W: Spelling> FlowConstants<W> {
             Some(missing) => format!("needs a `{}` beside it", W::key(&missing)),
             None => format!("must stand with constants of one kind: {}", kinds::<W>()),
         };
-        Err(Refused(last, allowed))
+        Err(Refused(Box::new(last), allowed))
     }
 
     /// The flow stress of constants that have been checked.
@@ -178,7 +178,7 @@ impl<W: Spelling> FlowConstants<W> {
 
 /// A constant that cannot stand as it does, and why.
 #[derive(Debug, Clone, PartialEq)]
-struct Refused(Constant, String);
+struct Refused(Box<Constant>, String);
 
 /// Keys of every kind, for messages.
 fn kinds<W: Spelling>() -> String {
