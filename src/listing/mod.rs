@@ -97,8 +97,24 @@ pub fn read(bytes: &[u8], format: Format, meaning: &Meaning) -> Result<Listing, 
         );
     }
     let listing = format.read(bytes, meaning)?;
-    match listing.grains.is_empty() {
-        true => Err("has no grains; name a file with some".to_owned()),
-        false => Ok(listing),
+    if listing.grains.is_empty() {
+        return Err("has no grains; name a file with some".to_owned());
+    }
+    match listing.grains.iter().find(|grain| !grain.is_finite()) {
+        Some(grain) => Err(format!(
+            "line {}: its place, size or motion is beyond what a number holds; must be finite in SI units",
+            grain.at
+        )),
+        None => Ok(listing),
+    }
+}
+
+impl Listed {
+    /// Whether all its numbers are finite: finite ones of a file need not be after its units and bounds are applied.
+    fn is_finite(&self) -> bool {
+        let vectors = [self.centre, self.velocity, self.spin];
+        let sizes = [self.radius, self.density, self.mass];
+        vectors.iter().all(|vector| vector.is_finite())
+            && sizes.iter().flatten().all(|size| size.is_finite())
     }
 }

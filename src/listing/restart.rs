@@ -43,10 +43,7 @@ fn agree(grains: &Grains) -> bool {
         grains.plastic.len(),
         grains.ids.len(),
     ];
-    let sound = grains
-        .spheres
-        .iter()
-        .all(|s| s.centre.is_finite() && s.radius > 0.0);
+    let sound = grains.spheres.iter().all(|s| s.radius > 0.0);
     let heavy = grains.motions.iter().all(|m| m.inverse_mass > 0.0);
     lengths.iter().all(|length| *length == count) && sound && heavy
 }

@@ -118,6 +118,9 @@ fn force_models_written_from_such_names_compile_to_the_same_law() {
 fn scripts_written_from_such_names_hold_no_command_of_theirs() {
     for attack in ATTACKS {
         for file in Target::Native.export(&attacked(attack)).unwrap() {
+            if file.name.ends_with(".md") {
+                continue; // for people: it may tell the law's name
+            }
             let commands = file.text.lines().map(str::trim_start);
             let mut commands = commands.filter(|line| !line.starts_with('#'));
             assert!(
