@@ -1,6 +1,6 @@
 //! Keys: what an input file may hold, described beside the types that read it.
 //!
-//! [`Document::parse`](super::Document::parse) reads nothing but a [`Value`], and a table becomes one through [`keys!`] alone, which
+//! [`Document::parse`](super::Document::parse) reads nothing but a [`Value`], and a table becomes one through `keys!` alone, which
 //! takes the type apart field by field: a key without its line does not compile. JSON schema, reference, help and what errors
 //! say of a key are written from these lines.
 
