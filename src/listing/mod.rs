@@ -100,9 +100,9 @@ pub fn read(bytes: &[u8], format: Format, meaning: &Meaning) -> Result<Listing, 
     if listing.grains.is_empty() {
         return Err("has no grains; name a file with some".to_owned());
     }
-    match listing.grains.iter().find(|grain| !grain.is_finite()) {
+    match listing.grains.iter().find(|grain| !grain.is_sound()) {
         Some(grain) => Err(format!(
-            "line {}: its place, size or motion is beyond what a number holds; must be finite in SI units",
+            "line {}: its place, size or motion is beyond what a number holds; must be finite, and its size positive, in SI units",
             grain.at
         )),
         None => Ok(listing),
@@ -110,11 +110,15 @@ pub fn read(bytes: &[u8], format: Format, meaning: &Meaning) -> Result<Listing, 
 }
 
 impl Listed {
-    /// Whether all its numbers are finite: finite ones of a file need not be after its units and bounds are applied.
-    fn is_finite(&self) -> bool {
+    /// Whether its numbers are finite and its sizes positive: those of a file need not be after units and bounds are applied to
+    /// them.
+    fn is_sound(&self) -> bool {
         let vectors = [self.centre, self.velocity, self.spin];
         let sizes = [self.radius, self.density, self.mass];
         vectors.iter().all(|vector| vector.is_finite())
-            && sizes.iter().flatten().all(|size| size.is_finite())
+            && sizes
+                .iter()
+                .flatten()
+                .all(|&size| size > 0.0 && size.is_finite())
     }
 }
