@@ -51,10 +51,11 @@ fn of_kind(kind: &Kind, range: &str, quantities: &mut Map<String, Value>) -> Val
         Kind::Name(names) => json!({ "enum": names }),
         Kind::Quantity(units) => {
             let negative = !range.starts_with('>') && !range.starts_with('≥');
-            let name = match negative {
-                true => units.noun().to_owned(),
-                false => format!("{}, not negative", units.noun()),
-            };
+            // a part of an address, in which a blank is an error: taplo refuses the whole schema for one
+            let mut name = units.noun().replace(' ', "-");
+            if !negative {
+                name.push_str("-not-negative");
+            }
             let reference = format!("#/definitions/{name}");
             quantities
                 .entry(name)
