@@ -109,9 +109,16 @@ impl Document {
                     (span, key)
                 }
             };
+            // what is missing is explained, not the table that lacks it
+            let lacking = message.split('`').nth(1).filter(|_| missing);
+            let about = match (&key, lacking) {
+                (Some(table), Some(lacking)) => Some(format!("{table}.{lacking}")),
+                (None, Some(lacking)) => Some(lacking.to_owned()),
+                (key, None) => key.clone(),
+            };
             Error::Syntax {
                 path: self.path.clone(),
-                place: self.place(span, key.as_deref()),
+                place: self.place(span, about.as_deref()),
                 message: match key {
                     Some(key) => format!("`{key}`: {message}"),
                     None => message,
@@ -391,6 +398,7 @@ mod tests {
             explanation("[particle]\nradius = \"1 m\"\n[shape]\nkind = \"ball\"\nradius = 1\n");
         assert!(ball.is_none() || ball.unwrap().contains("shape"));
         assert_eq!(explanation("[particle]\nradus = 3\n"), None);
+        assert_eq!(explanation("[particle]\n").as_deref(), Some(radius));
     }
 
     fn message(text: &str) -> (String, Option<Range<usize>>) {

@@ -70,6 +70,12 @@ impl Command for RunArgs {
             .filter(|_| !self.no_bed)
             .map(Scene::read)
             .transpose()?;
+        if case.material.flow.is_none() {
+            tracing::warn!(
+                "{} names no yield_strength: the particle is elastic, and so is its law",
+                case.path.display()
+            );
+        }
         let out = output_folder(self.out.as_deref(), &case.name)?;
         super::fit::check_target(&out.join("law.toml"), &case)?;
         context.open_log(&out, "run", &case.hash);
@@ -80,7 +86,7 @@ impl Command for RunArgs {
         let page = report(&document, &case, &results, &out, context, started)?;
         let worst = 100.0 * results.law.worst_error();
         context.say(&format!(
-            "{}\nlaw     {}\nerror   {worst:.2} % at most, of F*, delta* and e\nreport  {}\ntime    {:.1} s\n",
+            "{}\nlaw     {}\nerror   {worst:.2} % at most, of F*, delta* and e: law against simulation\nreport  {}\ntime    {:.1} s\n",
             results.comparison.summary_markdown(),
             out.join("law.toml").display(),
             page.display(),
