@@ -156,9 +156,15 @@ impl LawFile {
     pub fn parse(document: &Document) -> Result<Self> {
         // another schema has other keys: it is looked at before them
         let head = toml::from_str::<Head>(document.text());
-        if head.is_ok_and(|head| head.schema != Some(SCHEMA)) {
+        if let Ok(head) = head
+            && head.schema != Some(SCHEMA)
+        {
+            let remedy = match head.schema {
+                Some(_) => "fit the law again with this version",
+                None => "this is no law file: `impactlaw run CASE` makes one from a case",
+            };
             let allowed = format!(
-                "must be {SCHEMA}, the schema of law files of {}; fit the law again with this version",
+                "must be {SCHEMA}, the schema of law files of {}; {remedy}",
                 crate::PROGRAM
             );
             return Err(document.reject("schema", allowed));
