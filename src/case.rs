@@ -2,6 +2,7 @@
 
 use crate::document::Document;
 use crate::document::keys::{Kind, Value as _, key, keys, table};
+use crate::document::range;
 use crate::material::Material;
 use crate::material::flow::{FlowConstants, InText, WithFlow};
 use crate::unit::{self, Angle, Density, Length, Pressure, Quantity, Velocity};
@@ -88,7 +89,7 @@ pub(crate) struct ElasticTable {
 
 keys! {
     ElasticTable {
-        density: key("density", "> 0", "'7274 kg/m3'"),
+        density: key("mass per volume of the solid", "> 0", "'7274 kg/m3'"),
         young_modulus: key("Young's modulus E", "> 0", "'59.82 GPa'"),
         poisson_ratio: key("Poisson's ratio", "[0, 0.5)", "0.33"),
     }
@@ -199,7 +200,7 @@ impl Case {
             name: document.name(),
             path: document.path().to_owned(),
             hash: document.hash(),
-            radius: document.positive("particle.radius", file.particle.radius)?,
+            radius: document.within("particle.radius", file.particle.radius.si())?,
             material: {
                 let MaterialTable { others, flow } = file.material;
                 others.check(&flow, document, "material")?
@@ -207,12 +208,7 @@ impl Case {
             velocities: file.impact.check(document)?,
             angle: file.impact.angle(document)?,
             friction: file.wall.map_or(Ok(0.0), |wall| wall.check(document))?,
-            tolerance: document.check(
-                "accuracy.tolerance",
-                file.accuracy.tolerance,
-                |tolerance| tolerance > 0.0 && tolerance <= 0.2,
-                "must lie in (0, 0.2], e.g. 0.02 for two per cent",
-            )?,
+            tolerance: document.within("accuracy.tolerance", file.accuracy.tolerance)?,
             bed: file.bed.map(|bed| bed.check(document)).transpose()?,
         };
         slips::check(&case, &written, document, &file.unusual)?;
@@ -230,11 +226,21 @@ impl Case {
         velocities: &[f64],
         tolerance: f64,
     ) -> Result<Self> {
-        let positive = |value: &f64| value.is_finite() && *value > 0.0;
         let refuse = |what: &str, found: String, allowed: &str| Error::Refused {
             what: what.to_owned(),
             found,
             allowed: allowed.to_owned(),
+        };
+        let root = Self::keys();
+        let within = |key: &str, value: f64| {
+            let range = root.at(key).map_or("", |key| key.line.range);
+            match range::holds(range, value) {
+                Some(true) => Ok(()),
+                _ => {
+                    let what = key.rsplit('.').next().unwrap_or(key);
+                    Err(refuse(what, value.to_string(), &range::must(range)))
+                }
+            }
         };
         let Material {
             density,
@@ -242,19 +248,10 @@ impl Case {
             poisson_ratio,
             flow,
         } = material;
-        for (what, value) in [
-            ("radius", radius),
-            ("density", density),
-            ("young_modulus", young_modulus),
-        ] {
-            if !positive(&value) {
-                return Err(refuse(what, value.to_string(), "must be positive"));
-            }
-        }
-        if !(0.0..0.5).contains(&poisson_ratio) {
-            let found = poisson_ratio.to_string();
-            return Err(refuse("poisson_ratio", found, "must lie in [0, 0.5)"));
-        }
+        within("particle.radius", radius)?;
+        within("material.density", density)?;
+        within("material.young_modulus", young_modulus)?;
+        within("material.poisson_ratio", poisson_ratio)?;
         for (constant, value) in flow.iter().flat_map(|flow| flow.constants()) {
             if !constant.range.holds(value, young_modulus) {
                 let allowed = constant.range.rule(young_modulus);
@@ -264,15 +261,14 @@ impl Case {
         let mut velocities = velocities.to_vec();
         velocities.sort_by(f64::total_cmp);
         velocities.dedup();
-        if velocities.is_empty() || !velocities.iter().all(positive) {
-            let found = format!("{velocities:?}");
-            let allowed = "must hold at least one speed, all of them positive";
-            return Err(refuse("velocities", found, allowed));
+        if velocities.is_empty() {
+            let allowed = "must hold at least one speed";
+            return Err(refuse("velocities", "[]".to_owned(), allowed));
         }
-        if !(tolerance > 0.0 && tolerance <= 0.2) {
-            let found = tolerance.to_string();
-            return Err(refuse("tolerance", found, "must lie in (0, 0.2]"));
+        for velocity in &velocities {
+            within("impact.velocities", *velocity)?;
         }
+        within("accuracy.tolerance", tolerance)?;
         Ok(Case {
             name: name.to_owned(),
             path: PathBuf::from(name),
@@ -327,16 +323,11 @@ impl ElasticTable {
         at: &str,
     ) -> Result<Material> {
         let key = |name: &str| format!("{at}.{name}");
-        let young_modulus = document.positive(&key("young_modulus"), self.young_modulus)?;
+        let young_modulus = document.within(&key("young_modulus"), self.young_modulus.si())?;
         Ok(Material {
-            density: document.positive(&key("density"), self.density)?,
+            density: document.within(&key("density"), self.density.si())?,
             young_modulus,
-            poisson_ratio: document.check(
-                &key("poisson_ratio"),
-                self.poisson_ratio,
-                |nu| (0.0..0.5).contains(&nu),
-                "must lie in [0, 0.5)",
-            )?,
+            poisson_ratio: document.within(&key("poisson_ratio"), self.poisson_ratio)?,
             flow: flow.check(document, at, young_modulus)?,
         })
     }
@@ -353,7 +344,7 @@ impl ImpactTable {
         let mut velocities = Vec::with_capacity(self.velocities.len());
         for (i, &quantity) in self.velocities.iter().enumerate() {
             let key = format!("impact.velocities[{i}]");
-            let velocity = document.positive(&key, quantity)?;
+            let velocity = document.within(&key, quantity.si())?;
             if velocities.contains(&velocity) {
                 return Err(document.reject(&key, "must be given once"));
             }
@@ -366,25 +357,17 @@ impl ImpactTable {
 
 impl ImpactTable {
     fn angle(&self, document: &Document) -> Result<f64> {
+        let key = "impact.angle";
+        let allowed = 0.0..=85f64.to_radians();
         self.angle.map_or(Ok(0.0), |angle| {
-            document.check(
-                "impact.angle",
-                angle.si(),
-                |angle| (0.0..=85f64.to_radians()).contains(&angle),
-                "must lie in [0 deg, 85 deg], measured from the wall's normal",
-            )
+            document.check(key, angle.si(), |angle| allowed.contains(&angle), &document.must(key))
         })
     }
 }
 
 impl WallTable {
     fn check(self, document: &Document) -> Result<f64> {
-        document.check(
-            "wall.friction",
-            self.friction,
-            |friction| (0.0..=2.0).contains(&friction),
-            "must lie in [0, 2]",
-        )
+        document.within("wall.friction", self.friction)
     }
 }
 

@@ -1,6 +1,8 @@
 //! Document: a TOML input file with its text, and errors that point into it.
 
 pub mod keys;
+pub mod misfit;
+pub mod range;
 pub mod reference;
 pub mod schema;
 
@@ -88,12 +90,17 @@ impl Document {
         self.path.parent().unwrap_or(Path::new("")).join(name)
     }
 
+    /// Notes what the text is read as, for errors that come before [`Document::parse`].
+    pub fn read_as<T: keys::Value>(&self) {
+        self.reader.0.get_or_init(|| T::kind);
+    }
+
     /// Deserialise into a struct that mirrors the file.
     ///
     /// # Errors
     /// [`Error::Syntax`] with the key and its span: not TOML, unknown or missing key, wrong type, bad quantity.
     pub fn parse<T: DeserializeOwned + keys::Value>(&self) -> Result<T> {
-        self.reader.0.get_or_init(|| T::kind);
+        self.read_as::<T>();
         toml::from_str(&self.text).map_err(|error| {
             let span = error.span();
             let message = in_plain_words(&error.message().trim_end().replace('\n', "; "));
@@ -157,13 +164,18 @@ impl Document {
         let explained = || {
             let root = self.reader.0.get()?();
             let key = root.at(key?)?;
-            Some(format!("{} is {}", key.name, reference::sentence(key)))
+            Some(format!("{}: {}", key.name, reference::sentence(key)))
+        };
+        let reader = match self.reader.0.get().map(|kind| kind()) {
+            Some(keys::Kind::Table(table)) => table.names(),
+            _ => Vec::new(),
         };
         span.map(|span| {
             Box::new(Place {
                 text: self.text.clone(),
                 span,
                 explanation: explained(),
+                reader,
             })
         })
     }
@@ -184,6 +196,32 @@ impl Document {
         } else {
             Err(self.reject(key, must))
         }
+    }
+
+    /// `value`, if it lies in the interval that the line of `key` states.
+    ///
+    /// # Errors
+    /// [`Error::Value`] saying what that interval is, or that the line states none.
+    pub fn within(&self, key: &str, value: f64) -> Result<f64> {
+        let range = self.range(key);
+        match range::holds(range, value) {
+            Some(true) => Ok(value),
+            Some(false) => Err(self.reject(key, range::must(range))),
+            None => Err(self.reject(key, "has no interval in its line")),
+        }
+    }
+
+    /// What an error says of a value of `key` that its line does not allow.
+    #[must_use]
+    pub fn must(&self, key: &str) -> String {
+        range::must(self.range(key))
+    }
+
+    /// Range in the line of `key`; empty where nothing has read the document yet.
+    fn range(&self, key: &str) -> &'static str {
+        let root = self.reader.0.get().map(|kind| kind());
+        root.and_then(|root| root.at(key).map(|key| key.line.range))
+            .unwrap_or_default()
     }
 
     /// SI value of a quantity that has to be positive.
@@ -390,7 +428,7 @@ mod tests {
             };
             place.and_then(|place| place.explanation)
         };
-        let radius = "radius is radius of the sphere: length, > 0, required, e.g. \"250 um\"";
+        let radius = "radius: radius of the sphere; length, > 0, required, e.g. \"250 um\"";
         for text in ["[particle]\nradius = 3\n", "[particle]\nradius = \"0 m\"\n"] {
             assert_eq!(explanation(text).as_deref(), Some(radius), "{text}");
         }

@@ -111,6 +111,8 @@ pub struct Place {
     pub span: Range<usize>,
     /// What the reference says of the key that stands there.
     pub explanation: Option<String>,
+    /// Keys at the top of the kind of file it was read as.
+    pub reader: Vec<String>,
 }
 
 /// Result of a stage.

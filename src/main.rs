@@ -1,7 +1,7 @@
 //! Program entry: parse, dispatch, print the error, exit code (0 ok, 1 a result fails a stated threshold, 2 could not run).
 
-use clap::{CommandFactory, Parser};
-use impactlaw::cli::Cli;
+use clap::CommandFactory;
+use impactlaw::cli::{Cli, parsed};
 use impactlaw::command::log::Tee;
 use impactlaw::command::{Context, Verdict, diagnostic};
 use impactlaw::{Error, Result};
@@ -10,7 +10,7 @@ use std::process::ExitCode;
 use tracing::Level;
 
 fn main() -> ExitCode {
-    let cli = Cli::parse();
+    let cli = parsed(std::env::args_os()).unwrap_or_else(|error| error.exit());
     trace(&cli);
     let context = Context::of_process(cli.quiet, Cli::command);
     let outcome = start_threads(cli.threads).and_then(|()| cli.verb.run(&context));

@@ -129,26 +129,9 @@ impl Study {
         let densities = positive(document, "material.density", &m.density)?;
         let moduli = positive(document, "material.young_modulus", &m.young_modulus)?;
         let velocities = positive(document, "impact.velocities", &file.impact.velocities)?;
-        let ratios = within(
-            document,
-            "material.young_over_yield",
-            &m.young_over_yield,
-            |x| x > 1.0,
-            "must be above 1",
-        )?;
-        let poissons = within(
-            document,
-            "material.poisson_ratio",
-            &m.poisson_ratio,
-            |x| (0.0..0.5).contains(&x),
-            "must lie in [0, 0.5)",
-        )?;
-        let tolerance = document.check(
-            "accuracy.tolerance",
-            file.accuracy.tolerance,
-            |tolerance| tolerance > 0.0 && tolerance <= 0.2,
-            "must lie in (0, 0.2], e.g. 0.02 for two per cent",
-        )?;
+        let ratios = within(document, "material.young_over_yield", &m.young_over_yield)?;
+        let poissons = within(document, "material.poisson_ratio", &m.poisson_ratio)?;
+        let tolerance = document.within("accuracy.tolerance", file.accuracy.tolerance)?;
         let lists = [
             ("particle.radius", radii.len()),
             ("material.density", densities.len()),
@@ -222,27 +205,18 @@ fn check_count(document: &Document, lists: &[(&str, usize)]) -> Result<()> {
     Err(document.reject(key, allowed))
 }
 
-/// All entries of a list, which must be there and positive.
+/// SI values of a list of quantities, as [`within`].
 fn positive<D: Copy>(document: &Document, key: &str, list: &[Quantity<D>]) -> Result<Vec<f64>> {
-    if list.is_empty() {
-        return Err(document.reject(key, "must hold at least one value"));
-    }
-    let entry = |(i, q): (usize, &Quantity<D>)| document.positive(&format!("{key}[{i}]"), *q);
-    list.iter().enumerate().map(entry).collect()
+    let values: Vec<f64> = list.iter().map(|quantity| quantity.si()).collect();
+    within(document, key, &values)
 }
 
-/// All entries of a list of pure numbers, each of which must be allowed.
-fn within(
-    document: &Document,
-    key: &str,
-    list: &[f64],
-    allowed: fn(f64) -> bool,
-    rule: &str,
-) -> Result<Vec<f64>> {
+/// All entries of a list, which must hold one, each in the range of its key.
+fn within(document: &Document, key: &str, list: &[f64]) -> Result<Vec<f64>> {
     if list.is_empty() {
         return Err(document.reject(key, "must hold at least one value"));
     }
-    let entry = |(i, x): (usize, &f64)| document.check(&format!("{key}[{i}]"), *x, allowed, rule);
+    let entry = |(i, x): (usize, &f64)| document.within(&format!("{key}[{i}]"), *x);
     list.iter().enumerate().map(entry).collect()
 }
 

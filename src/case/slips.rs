@@ -28,12 +28,56 @@ const MODULI: RangeInclusive<f64> = 1e3..=2e12;
 const LARGEST_POISSON: f64 = 0.49;
 /// Largest Y/E: the ideal strength of solids is about a tenth of E.
 const LARGEST_STRENGTH: f64 = 0.5;
-/// Smallest Y/E: pure annealed metals have some 1e-5.
-const LEAST_STRENGTH: f64 = 1e-7;
+/// Smallest Y/E: annealed metals of technical purity have some 1e-4, and a strength that lost a prefix 1e-5 and less.
+const LEAST_STRENGTH: f64 = 1e-5;
+/// Density, kg/m3, and Young's modulus, Pa: what is denser than the first (metals, heavy ceramics) is stiffer than the second.
+const HEAVY: (f64, f64) = (3500.0, 0.5e9);
+/// Smallest hardening or other stress over the yield strength, unless it is 0: less changes no figure of an impact.
+const LEAST_STRESS: f64 = 1e-3;
 /// Smallest speed over $\sqrt{E/\rho}$: a flattening of 1e-8 R, some digits above the rounding of positions.
 const LEAST_MACH: f64 = 1e-10;
 /// Largest $\rho V^2/Y$: a tenth of it flattens the body to a fiftieth of its height.
 const LARGEST_SEVERITY: f64 = 150.0;
+
+/// What is taken without a question, a row a quantity: for the guide, which a test holds to it.
+#[cfg(test)]
+fn accepted() -> Vec<(String, String)> {
+    let stress = |x: f64| engineering(x, "Pa", 4);
+    let between = |range: &RangeInclusive<f64>, unit: &str| {
+        let [low, high] = [range.start(), range.end()].map(|x| engineering(*x, unit, 4));
+        format!("{low} to {high}")
+    };
+    let (heavy, soft) = HEAVY;
+    [
+        ("`particle.radius`", between(&RADII, "m")),
+        ("`material.density`", between(&DENSITIES, "kg/m³")),
+        (
+            "`material.young_modulus`",
+            format!(
+                "{}; from {} where the density is above {heavy} kg/m³",
+                between(&MODULI, "Pa"),
+                stress(soft)
+            ),
+        ),
+        ("`material.poisson_ratio`", format!("0 to {LARGEST_POISSON}")),
+        (
+            "`material.yield_strength`",
+            format!("E/{:e} to E/{}", 1.0 / LEAST_STRENGTH, 1.0 / LARGEST_STRENGTH),
+        ),
+        (
+            "`material.hardening_modulus` and other stresses",
+            format!("0, or {LEAST_STRESS} Y to E"),
+        ),
+        (
+            "`impact.velocities`",
+            format!(
+                "{LEAST_MACH:e} c to c, c = √(E/ρ); ρV²/Y up to {LARGEST_SEVERITY}; elastic: δ* up to R"
+            ),
+        ),
+    ]
+    .map(|(key, range)| (key.to_owned(), range))
+    .to_vec()
+}
 
 /// Keys that `unusual` can name.
 fn keys() -> Vec<String> {
@@ -85,14 +129,18 @@ pub(super) fn check(
         (
             MODULUS,
             MODULUS.to_owned(),
-            outside(young_modulus, &MODULI, "Pa"),
+            outside(young_modulus, &MODULI, "Pa").or_else(|| soft(density, young_modulus)),
         ),
         (POISSON, POISSON.to_owned(), poisson(poisson_ratio)),
     ];
+    let strength = flow.map_or(0.0, |flow| flow.yield_strength());
     let constants = flow.map_or_else(Vec::new, |flow| flow.constants());
     let constants: Vec<(String, Slip)> = constants
         .iter()
-        .map(|(constant, value)| (key_of(constant), flow_slip(constant, *value, young_modulus)))
+        .map(|(constant, value)| {
+            let slip = flow_slip(constant, *value, young_modulus, strength);
+            (key_of(constant), slip)
+        })
         .collect();
     for (key, slip) in &constants {
         found.push((key, key.clone(), slip.clone()));
@@ -149,8 +197,18 @@ fn poisson(ratio: f64) -> Slip {
     })
 }
 
-/// A yield strength that no solid has beside this modulus, or another stress above the modulus.
-fn flow_slip(constant: &Constant, value: f64, modulus: f64) -> Slip {
+/// A modulus that nothing so dense has.
+fn soft(density: f64, modulus: f64) -> Slip {
+    (density > HEAVY.0 && modulus < HEAVY.1).then(|| {
+        format!(
+            "{} is less than metals and ceramics have, and it is as dense as they are",
+            engineering(modulus, "Pa", 4)
+        )
+    })
+}
+
+/// A yield strength that no solid has beside this modulus, or another stress above the modulus or far below the strength.
+fn flow_slip(constant: &Constant, value: f64, modulus: f64, strength: f64) -> Slip {
     let share = value / modulus;
     let said = |what: &str| Some(format!("E/Y = {} is {what}", significant(1.0 / share, 3)));
     if *constant == YIELD_STRENGTH {
@@ -160,8 +218,14 @@ fn flow_slip(constant: &Constant, value: f64, modulus: f64) -> Slip {
             _ => None,
         };
     }
-    let above = constant.dimension == Dimension::Stress && share > 1.0;
-    above.then(|| "it is above young_modulus".to_owned())
+    match constant.dimension {
+        Dimension::Stress if share > 1.0 => Some("it is above young_modulus".to_owned()),
+        Dimension::Stress if value > 0.0 && value < LEAST_STRESS * strength => {
+            let ratio = significant(value / strength, 3);
+            Some(format!("it is {ratio} of yield_strength, which changes nothing; 0 is none"))
+        }
+        _ => None,
+    }
 }
 
 /// A speed above that of sound, one too slow to be told from rest, or one that no body survives.
@@ -191,5 +255,17 @@ fn velocity_slip(material: &Material, velocity: f64) -> Slip {
         Some(format!("the expected delta* is {ratio} radii"))
     } else {
         None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn the_guide_states_what_is_taken_without_a_question() {
+        let guide = include_str!("../guide/first-case.md");
+        for (key, range) in super::accepted() {
+            let row = format!("| {key} | {range} |");
+            assert!(guide.contains(&row), "the guide lacks\n{row}");
+        }
     }
 }

@@ -165,7 +165,7 @@ fn a_hardening_modulus_of_zero_is_perfect_plasticity() {
 }
 
 /// Values that are slips of a unit: from, to, key, what is said.
-const SLIPS: [(&str, &str, &str, &str); 12] = [
+const SLIPS: [(&str, &str, &str, &str); 13] = [
     (
         "\"250 um\"",
         "\"250 m\"",
@@ -230,8 +230,14 @@ const SLIPS: [(&str, &str, &str, &str); 12] = [
     (
         "\"1.25 GPa\"",
         "\"125 kPa\"",
-        "impact.velocities",
-        "rho V^2/Y = 160: nothing is left",
+        "material.yield_strength",
+        "E/Y = 8e5 is more than any solid's",
+    ),
+    (
+        "\"2 GPa\"",
+        "\"2 kPa\"",
+        "material.hardening_modulus",
+        "it is 1.6e-6 of yield_strength",
     ),
 ];
 
@@ -259,6 +265,47 @@ fn slips_of_units_are_caught_and_what_is_meant_is_kept() {
         );
         assert!(Case::parse(&other, Path::new("c.toml")).is_err(), "{other}");
     }
+}
+
+#[test]
+fn polymers_gels_and_foams_are_no_slips() {
+    // polyethylene, gelatine, aluminium foam, annealed pure aluminium, tungsten carbide
+    for (density, modulus, strength) in [
+        ("950 kg/m3", "0.8 GPa", "20 MPa"),
+        ("1000 kg/m3", "10 kPa", "2 kPa"),
+        ("300 kg/m3", "500 MPa", "3 MPa"),
+        ("2700 kg/m3", "69 GPa", "8 MPa"),
+        ("15.6 g/cm3", "650 GPa", "3 GPa"),
+    ] {
+        let text = GOOD
+            .replace("8000 kg/m3", density)
+            .replace("100 GPa", modulus)
+            .replace("1.25 GPa", strength)
+            .replace("hardening_modulus = \"2 GPa\"\n", "")
+            .replace("\"10 m/s\"", "\"0.2 m/s\"")
+            .replace("\"50 m/s\"", "\"0.5 m/s\"");
+        let case = Case::parse(&text, Path::new("c.toml"));
+        assert!(case.is_ok(), "{density}: {}", case.unwrap_err());
+    }
+}
+
+#[test]
+fn a_metal_whose_stresses_have_all_lost_a_prefix_is_a_slip() {
+    let text = GOOD
+        .replace("100 GPa", "100 MPa")
+        .replace("1.25 GPa", "1.25 MPa")
+        .replace("\"2 GPa\"", "\"2 MPa\"");
+    let said = Case::parse(&text, Path::new("c.toml")).unwrap_err().to_string();
+    let why = "check the unit of material.young_modulus: 100 MPa is less than metals and ceramics have";
+    assert!(said.contains(why), "{said}");
+}
+
+#[test]
+fn a_body_that_no_impact_leaves_anything_of_is_a_slip() {
+    let text = GOOD.replace("1.25 GPa", "2 MPa").replace("50 m/s", "300 m/s");
+    let text = text.replace("hardening_modulus = \"2 GPa\"\n", "");
+    let text = Case::parse(&text, Path::new("c.toml")).unwrap_err().to_string();
+    assert!(text.contains("rho V^2/Y = 360: nothing is left"), "{text}");
 }
 
 #[test]

@@ -61,6 +61,7 @@ impl Command for CompareArgs {
                 allowed: format!("must be a law of the material of {}", case.path.display()),
             });
         }
+        context.open_log(&out, "compare", &case.hash);
         let mut comparison = Comparison::new(&case.material, case.radius, &impacts);
         add_fitted(&mut comparison, &file)?;
         comparison.add_theories();

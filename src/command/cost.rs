@@ -60,6 +60,7 @@ impl Command for CostArgs {
         let case = Case::read(&self.case)?.with_velocities(&self.velocity)?;
         let longest = unit::argument::<Time>("--longest", &self.longest)?;
         let claim = output_folder(self.out.as_deref(), &case.name)?;
+        context.open_log(&claim, "cost", &case.hash);
         let out = claim.join("cost");
         let speeds = match self.velocity.is_empty() {
             true => &case.velocities[case.velocities.len() - 1..],

@@ -34,6 +34,7 @@ fn report(error: &Error) -> Report {
             text,
             span,
             explanation,
+            ..
         },
     )) = place(error)
     else {

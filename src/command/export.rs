@@ -7,6 +7,7 @@ use crate::export::source::artifact::Artifact;
 use crate::export::source::portable::Portable;
 use crate::files::write_atomic;
 use crate::law::Form;
+use crate::unit::engineering;
 use crate::{Error, Result};
 use clap::Args;
 use std::fmt::Write;
@@ -32,7 +33,7 @@ pub struct ExportArgs {
     /// Output folder (default: `out/<law name>/export`).
     #[arg(short, long)]
     pub out: Option<PathBuf>,
-    /// Compile and run the law in the codes that are installed, and print how well they agree.
+    /// Compile and run the law in the codes of `--to` (without it: in all) that are installed, and print how well they agree.
     #[arg(long)]
     pub check: bool,
 }
@@ -69,11 +70,17 @@ impl Command for ExportArgs {
                 write_atomic(&path, artifact.text.as_bytes())?;
                 let _ = writeln!(said, "{}", path.display());
             }
+            let _ = writeln!(
+                said,
+                "time step for a deck: {} at a smallest radius of {}, in proportion to it",
+                engineering(law.time_step(), "s", 3),
+                engineering(law.radius(), "m", 3)
+            );
             context.say(&said)?;
         }
         match (self.check, &other) {
             (true, Some(other)) => check_with(&law, other),
-            (true, None) => check_all(&law, context),
+            (true, None) => check_targets(&law, &targets, context),
             (false, _) => Ok(Verdict::Met),
         }
     }
@@ -110,8 +117,9 @@ fn with(law: &Portable, other: &Portable, targets: &[Target]) -> Result<Vec<Arti
     };
     let pairs = targets.iter().map(pair).collect::<Result<Vec<_>>>()?;
     let mut artifacts = Vec::new();
-    for pair in pairs {
-        artifacts.extend(pair(law, other)?);
+    for (target, pair) in targets.iter().zip(pairs) {
+        let files = pair(law, other)?;
+        artifacts.extend(files.into_iter().map(|file| file.within(target.name())));
     }
     Ok(artifacts)
 }
@@ -167,9 +175,16 @@ fn check_with(law: &Portable, other: &Portable) -> Result<Verdict> {
     verdict(&[("C, two materials", finding)])
 }
 
-/// Run every check and print the table.
-fn check_all(law: &Portable, context: &Context) -> Result<Verdict> {
-    let checks = check::all();
+/// Run the checks of the targets, of all where none is named, and print the table.
+fn check_targets(law: &Portable, targets: &[Target], context: &Context) -> Result<Verdict> {
+    let targets = match targets {
+        [] => &Target::ALL,
+        targets => targets,
+    };
+    let checks: Vec<_> = targets.iter().flat_map(|t| check::of(*t)).collect();
+    if checks.is_empty() {
+        tracing::warn!("no program reads a table: there is nothing to check");
+    }
     let bar = context.progress(checks.len() as u64, "check");
     let mut findings = Vec::new();
     for check in &checks {

@@ -47,7 +47,10 @@ impl Command for FitArgs {
         let target = self.out.clone().unwrap_or_else(|| folder.join("law.toml"));
         check_target(&target, &case)?;
         let impacts = read_impacts(&folder, &case)?;
-        check_writable(target.parent().unwrap_or(Path::new(".")))?;
+        let here = |folder: &&Path| !folder.as_os_str().is_empty();
+        let folder = target.parent().filter(here).unwrap_or(Path::new("."));
+        check_writable(folder)?;
+        context.open_log(folder, "fit", &case.hash);
         let file = LawFile::of(&fit(&case, &impacts)?, &case, PROGRAM);
         file.write(&target)?;
         match self.json {

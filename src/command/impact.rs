@@ -59,7 +59,7 @@ impl Command for ImpactArgs {
 }
 
 /// What the impacts gave and where it lies, as text.
-fn findings(all: &[Simulated], out: &Path) -> String {
+pub(super) fn findings(all: &[Simulated], out: &Path) -> String {
     let mut text = format!(
         "{:>10} {:>8} {:>11} {:>11} {:>11}  folder\n",
         "V", "e", "F*", "delta*", "t_c"

@@ -1,6 +1,7 @@
 //! `init`: a commented input file that runs, to start from.
 
-use super::{Command, Context, Verdict};
+use super::schema::FileKind;
+use super::{Command, Context, Verdict, quoted};
 use crate::{Error, Result};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
@@ -30,9 +31,18 @@ macro_rules! preset {
             name: $name,
             about: $about,
             text: include_str!(concat!("../../", $file)),
-            beside: &[$(($other, include_bytes!(concat!("../../cases/", $other)))),*],
+            beside: &[$((base($other), include_bytes!(concat!("../../cases/", $other)))),*],
         }
     };
+}
+
+/// Name of a file, its folders left out.
+const fn base(path: &'static str) -> &'static str {
+    let mut at = path.len();
+    while at > 0 && path.as_bytes()[at - 1] != b'/' {
+        at -= 1;
+    }
+    path.split_at(at).1
 }
 
 /// Every preset; the first of its kind is written where `--like` does not choose.
@@ -59,7 +69,8 @@ pub const PRESETS: [Preset; 8] = [
         "scene",
         "mixture",
         "src/command/init/mixture.toml",
-        "two materials poured into a box"
+        "solder and steel balls poured into a box",
+        "../models/sac305-solder.toml"
     ),
     preset!(
         "scene",
@@ -156,14 +167,13 @@ impl Command for InitArgs {
                 .map_err(Error::file("create", path))?;
             file.write_all(bytes).map_err(Error::file("write", path))?;
         }
-        let next = match preset.kind {
-            "case" => "run",
-            _ => "bed",
-        };
-        let path = path.display();
+        let next = FileKind::named(preset.kind)?.next;
+        let next = next.replace("FILE", &quoted(&path.to_string_lossy()));
         context.say(&format!(
-            "{path}: {}; now `impactlaw {next} {path}`; `impactlaw help {}` explains its keys\n",
-            preset.about, preset.kind
+            "{}: {}; now `{next}`; `impactlaw help {}` explains its keys\n",
+            path.display(),
+            preset.about,
+            preset.kind
         ))?;
         Ok(Verdict::Met)
     }

@@ -3,6 +3,7 @@
 //!
 //! A new verb is a new file, its `mod` line and one line of the list of [`Verb`].
 
+mod another_kind;
 pub mod bed;
 pub mod bed_export;
 pub mod compare;
@@ -60,9 +61,10 @@ macro_rules! verbs {
             /// # Errors
             /// Those of the verb.
             pub fn run(&self, context: &Context) -> Result<Verdict> {
-                match self {
+                let outcome = match self {
                     $(Verb::$verb(args) => args.run(context),)+
-                }
+                };
+                outcome.map_err(another_kind::named)
             }
         }
     };

@@ -1,7 +1,7 @@
 //! `run`: the whole path from a case file to law, comparison, bed and report.
 
 use super::show::{self, NamedLaw};
-use super::{Command, Context, Verdict, bed, compare, impact, output_folder};
+use super::{Command, Context, Verdict, bed, compare, impact, output_folder, print_json};
 use crate::bed::run::BedReport;
 use crate::bed::scene::Scene;
 use crate::case::Case;
@@ -15,6 +15,7 @@ use crate::plan::{Plan, plans};
 use crate::report::RunPage;
 use crate::{PROGRAM, Result};
 use clap::Args;
+use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -27,6 +28,20 @@ struct Results {
     law: LawFile,
     comparison: Comparison,
     bed: Option<(Scene, BedReport)>,
+}
+
+impl Results {
+    /// What was found, for programs.
+    fn json(&self, law: &Path, page: &Path) -> Value {
+        let impacts = self.simulated.iter().map(|one| &one.impact.summary);
+        json!({
+            "law": law,
+            "report": page,
+            "worst_error": self.law.worst_error(),
+            "impacts": impacts.collect::<Vec<_>>(),
+            "comparison": self.comparison.rows(),
+        })
+    }
 }
 
 /// Run everything: plan, impacts, fit, comparison, bed, report.
@@ -46,6 +61,9 @@ pub struct RunArgs {
     /// How often a run saves a checkpoint, from which the same command resumes after an interruption.
     #[arg(long, default_value = "30 s")]
     pub checkpoint: String,
+    /// Print as JSON.
+    #[arg(long)]
+    pub json: bool,
 }
 
 impl Command for RunArgs {
@@ -84,14 +102,19 @@ impl Command for RunArgs {
             .note("plan", &super::plan::text(&case, &plans(&case)?));
         let results = stages(&case, scene, &out, (self.seed, interval), context)?;
         let page = report(&document, &case, &results, &out, context, started)?;
-        let worst = 100.0 * results.law.worst_error();
-        context.say(&format!(
-            "{}\nlaw     {}\nerror   {worst:.2} % at most, of F*, delta* and e: law against simulation\nreport  {}\ntime    {:.1} s\n",
-            results.comparison.summary_markdown(),
-            out.join("law.toml").display(),
-            page.display(),
-            started.elapsed().as_secs_f64()
-        ))?;
+        let law = out.join("law.toml");
+        match self.json {
+            true => print_json(&results.json(&law, &page))?,
+            false => context.say(&format!(
+                "{}\nErrors against these impacts, %\n{}\nlaw     {}\nerror   {:.2} % at most, of F*, delta* and e: law against simulation\nreport  {}\ntime    {:.1} s\n",
+                impact::findings(&results.simulated, &out),
+                results.comparison.summary_markdown().trim_end(),
+                law.display(),
+                100.0 * results.law.worst_error(),
+                page.display(),
+                started.elapsed().as_secs_f64()
+            ))?,
+        }
         Ok(verdict(&results))
     }
 }

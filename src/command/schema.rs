@@ -19,6 +19,8 @@ pub struct FileKind {
     pub name: &'static str,
     /// What it is for, and who reads it.
     pub about: &'static str,
+    /// The command line that a file of this kind is for, `FILE` standing for it.
+    pub next: &'static str,
     /// Its keys.
     kind: fn() -> Kind,
 }
@@ -28,22 +30,26 @@ pub const FILES: [FileKind; 4] = [
     FileKind {
         name: "case",
         about: "Particle, material and impacts: read by `run`, `plan`, `impact`, `fit`, `compare`, `theory` and `cost`.",
+        next: "impactlaw run FILE",
         kind: Case::keys,
     },
     FileKind {
         name: "study",
         about: "A grid of cases: every entry of each list with every entry of the others. Read by `study`.",
+        next: "impactlaw study FILE",
         kind: Study::keys,
     },
     FileKind {
         name: "scene",
         about: "A bed: read by `bed` and `bed export`.",
+        next: "impactlaw bed FILE",
         kind: Scene::keys,
     },
     FileKind {
         name: "law",
         about: "Written by `fit` and `run`, read by `compare`, `law`, `export`, `bed` and scenes. SI units, in the keys. The file \
                 says its equations in its head; numbers survive reading and writing bit for bit.",
+        next: "impactlaw export FILE --to liggghts,lammps",
         kind: LawFile::keys,
     },
 ];

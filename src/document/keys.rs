@@ -119,6 +119,12 @@ impl Line {
 }
 
 impl Table {
+    /// The names of its keys.
+    #[must_use]
+    pub fn names(&self) -> Vec<String> {
+        self.keys.iter().map(|key| key.name.clone()).collect()
+    }
+
     /// The key called `name`.
     #[must_use]
     pub fn key(&self, name: &str) -> Option<&Key> {

@@ -122,24 +122,25 @@ fn example(key: &Key, path: &str) -> String {
     }
 }
 
-/// A key in one sentence: "radius of the sphere: length, > 0, required, e.g. "250 um"".
+/// A key in one sentence: "radius of the sphere; length, > 0, required, e.g. "250 um"". What repeats the name of the key, or
+/// itself, is not said.
 #[must_use]
 pub fn sentence(key: &Key) -> String {
-    let mut text = format!("{}: {}", key.line.meaning, kind(&key.kind));
-    let range = range(key).replace('`', "");
-    if !range.is_empty() {
-        let _ = write!(text, ", {range}");
+    let name = key.name.replace('_', " ");
+    let meaning = Some(key.line.meaning).filter(|meaning| *meaning != name);
+    let kind = Some(kind(&key.kind)).filter(|kind| *kind != name && Some(&kind[..]) != meaning);
+    let range = Some(range(key).replace('`', "")).filter(|range| !range.is_empty());
+    let default = match key.line.default {
+        None => "required".to_owned(),
+        Some(default) => format!("default {}", default.replace('`', "")),
+    };
+    let example = Some(key.line.example()).filter(|example| !example.is_empty());
+    let example = example.map(|example| format!("e.g. {example}"));
+    let rest: Vec<String> = [kind, range, Some(default), example].into_iter().flatten().collect();
+    match meaning {
+        Some(meaning) => format!("{meaning}; {}", rest.join(", ")),
+        None => rest.join(", "),
     }
-    match key.line.default {
-        None => text.push_str(", required"),
-        Some(default) => {
-            let _ = write!(text, ", default {}", default.replace('`', ""));
-        }
-    }
-    if !key.line.example.is_empty() {
-        let _ = write!(text, ", e.g. {}", key.line.example());
-    }
-    text
 }
 
 /// The tables of a file as Markdown, headings of the third level.

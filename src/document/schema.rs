@@ -1,6 +1,7 @@
 //! Schema: the keys of a file as JSON schema (draft 7), for editors that check TOML while it is written.
 
 use super::keys::{Key, Kind, Table};
+use super::range::bounds;
 use crate::unit::Units;
 use serde_json::{Map, Value, json};
 
@@ -33,7 +34,8 @@ fn of_table(
             required.push(&key.name);
         }
     }
-    json!({ "type": "object", "properties": properties, "required": required, "additionalProperties": false })
+    // a plain `false` is blamed on the whole table: what fails at the key underlines the key
+    json!({ "type": "object", "properties": properties, "required": required, "additionalProperties": { "allOf": [false] } })
 }
 
 fn of_key(key: &Key, quantities: &mut Map<String, Value>) -> Value {
@@ -72,15 +74,31 @@ fn of_kind(kind: &Kind, range: &str, quantities: &mut Map<String, Value>) -> Val
             json!({ "type": "object", "additionalProperties": of_table(table, None, quantities) })
         }
         Kind::OneOrMany(table) => {
-            let one = of_table(table, None, quantities);
-            json!({ "anyOf": [one, { "type": "array", "items": one }] })
+            // what is said of properties holds for a table, what is said of items for a list
+            let mut schema = of_table(table, None, quantities);
+            schema["items"] = schema.clone();
+            schema["type"] = json!(["object", "array"]);
+            schema
         }
         Kind::Variants(tag, variants) => {
-            let variants = variants.iter();
-            let variants: Vec<Value> = variants
-                .map(|(name, table)| of_table(table, Some((*tag, *name)), quantities))
-                .collect();
-            json!({ "type": "object", "oneOf": variants })
+            // `oneOf` would blame the whole table for a wrong key: the name chooses which schema speaks
+            let names: Vec<&str> = variants.iter().map(|(name, _)| *name).collect();
+            let mut properties = Map::new();
+            properties.insert((*tag).to_owned(), json!({ "enum": names }));
+            let mut choices = Vec::new();
+            for (name, table) in variants {
+                for key in &table.keys {
+                    // for an editor that completes
+                    let meaning = super::reference::sentence(key);
+                    properties
+                        .entry(key.name.clone())
+                        .or_insert_with(|| json!({ "description": meaning }));
+                }
+                let chosen = json!({ "properties": { *tag: { "const": name } }, "required": [tag] });
+                let table = of_table(table, Some((*tag, *name)), quantities);
+                choices.push(json!({ "if": chosen, "then": table }));
+            }
+            json!({ "type": "object", "properties": properties, "required": [tag], "allOf": choices })
         }
         Kind::Either(one, other) => {
             let both = [one, other].map(|kind| of_kind(kind, range, quantities));
@@ -124,70 +142,4 @@ fn bounded(kind: &str, range: &str) -> Value {
         };
     }
     schema
-}
-
-/// Bounds that a range says: of `[0, 0.5)`, `> 0`, `≥ 1`, `8 to 1000`; nothing of words.
-#[must_use]
-pub fn bounds(range: &str) -> Vec<(&'static str, f64)> {
-    let number = |text: &str| text.trim().parse::<f64>().ok();
-    let range = range.split(", <").next().unwrap_or(range);
-    if let Some(value) = range.strip_prefix('>').and_then(number) {
-        return vec![("exclusiveMinimum", value)];
-    }
-    if let Some(value) = range.strip_prefix('≥').and_then(number) {
-        return vec![("minimum", value)];
-    }
-    let closed = |low: &str, high: &str, open: [bool; 2]| {
-        let names = [
-            ["minimum", "exclusiveMinimum"],
-            ["maximum", "exclusiveMaximum"],
-        ];
-        let values = [number(low)?, number(high)?];
-        Some(
-            [0, 1]
-                .map(|end| (names[end][usize::from(open[end])], values[end]))
-                .to_vec(),
-        )
-    };
-    if let Some((low, high)) = range.split_once(" to ") {
-        return closed(low, high, [false; 2]).unwrap_or_default();
-    }
-    let inner = range
-        .trim_start_matches(['[', '('])
-        .trim_end_matches([']', ')']);
-    match inner.split_once(',') {
-        Some((low, high)) if inner.len() + 2 == range.len() => {
-            closed(low, high, [range.starts_with('('), range.ends_with(')')]).unwrap_or_default()
-        }
-        _ => Vec::new(),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn intervals_become_bounds_and_words_none() {
-        assert_eq!(
-            bounds("[0, 0.5)"),
-            [("minimum", 0.0), ("exclusiveMaximum", 0.5)]
-        );
-        assert_eq!(
-            bounds("(0, 0.2]"),
-            [("exclusiveMinimum", 0.0), ("maximum", 0.2)]
-        );
-        assert_eq!(bounds("> 0, < E"), [("exclusiveMinimum", 0.0)]);
-        assert_eq!(bounds("≥ 1"), [("minimum", 1.0)]);
-        assert_eq!(bounds("8 to 1000"), [("minimum", 8.0), ("maximum", 1000.0)]);
-        for words in [
-            "",
-            "an existing file",
-            "≥ the slowest",
-            "of `materials`",
-            "[0, 4/3)",
-        ] {
-            assert_eq!(bounds(words), [], "{words}");
-        }
-    }
 }

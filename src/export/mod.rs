@@ -53,14 +53,15 @@ macro_rules! targets {
                 }
             }
 
-            /// The files of this target.
+            /// The files of this target, in a folder of its name.
             ///
             /// # Errors
             /// [`Error::Refused`] when the target cannot express the law.
             pub fn export(self, law: &Portable) -> Result<Vec<Artifact>> {
-                match self {
+                let files = match self {
                     $(Target::$target => <$dialect>::export(law),)+
-                }
+                };
+                Ok(files?.into_iter().map(|file| file.within(self.name())).collect())
             }
         }
     };

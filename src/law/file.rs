@@ -154,6 +154,7 @@ impl LawFile {
     /// [`Error::Value`] for another schema, a constant that is not admissible or a yield point that is not the
     /// material's; [`Error::Syntax`] for an unknown or missing key.
     pub fn parse(document: &Document) -> Result<Self> {
+        document.read_as::<LawFile>();
         // another schema has other keys: it is looked at before them
         let head = toml::from_str::<Head>(document.text());
         if let Ok(head) = head
@@ -217,40 +218,18 @@ impl LawFile {
     /// Material and range are finite and positive, and the yield point is that of the material.
     fn check_numbers(&self, document: &Document) -> Result<()> {
         let m = &self.material;
-        let positive = |x: f64| x > 0.0;
-        let must = "must be finite and positive";
-        document.check("material.density_kg_m3", m.density_kg_m3, positive, must)?;
-        document.check(
-            "material.young_modulus_Pa",
-            m.young_modulus_pa,
-            positive,
-            must,
-        )?;
-        let ratio = |x: f64| (0.0..0.5).contains(&x);
-        document.check(
-            "material.poisson_ratio",
-            m.poisson_ratio,
-            ratio,
-            "must lie in [0, 0.5)",
-        )?;
+        document.within("material.density_kg_m3", m.density_kg_m3)?;
+        document.within("material.young_modulus_Pa", m.young_modulus_pa)?;
+        document.within("material.poisson_ratio", m.poisson_ratio)?;
         m.flow.check(document, "material", m.young_modulus_pa)?;
         let v = &self.valid;
         let key = "valid.displacement_over_radius_max";
-        document.check(key, v.displacement_over_radius_max, positive, must)?;
-        document.check("valid.velocity_min_m_s", v.velocity_min_m_s, positive, must)?;
+        document.within(key, v.displacement_over_radius_max)?;
+        document.within("valid.velocity_min_m_s", v.velocity_min_m_s)?;
+        let key = "valid.velocity_max_m_s";
         let rises = |x: f64| x >= v.velocity_min_m_s;
-        document.check(
-            "valid.velocity_max_m_s",
-            v.velocity_max_m_s,
-            rises,
-            "must not be below velocity_min_m_s",
-        )?;
-        document.check(
-            "provenance.radius_m",
-            self.provenance.radius_m,
-            positive,
-            must,
-        )?;
+        document.check(key, v.velocity_max_m_s, rises, &document.must(key))?;
+        document.within("provenance.radius_m", self.provenance.radius_m)?;
         self.check_yield_point(document)
     }
 
@@ -272,18 +251,11 @@ impl LawFile {
             )
         })?;
         let near = |truth: f64| move |x: f64| (x / truth - 1.0).abs() < YIELD_ROUNDING;
-        document.check(
-            "yield_point.displacement_over_radius",
-            table.displacement_over_radius,
-            near(point.displacement),
-            "must be that of the material",
-        )?;
-        document.check(
-            "yield_point.force_over_radius2_Pa",
-            table.force_over_radius2_pa,
-            near(point.force),
-            "must be that of the material",
-        )?;
+        let key = "yield_point.displacement_over_radius";
+        let near_displacement = near(point.displacement);
+        document.check(key, table.displacement_over_radius, near_displacement, &document.must(key))?;
+        let key = "yield_point.force_over_radius2_Pa";
+        document.check(key, table.force_over_radius2_pa, near(point.force), &document.must(key))?;
         Ok(())
     }
 

@@ -37,6 +37,8 @@ fn errors_fall_along_the_ladder_and_a_second_call_repeats_nothing() {
     assert!(cell(last, "cpu_s") > cell(2, "cpu_s"));
     assert!(cell(last, "mae_displacement") < 0.5 * cell(2, "mae_displacement"));
     assert!(cell(last, "error") < 0.02);
+    let log = std::fs::read_to_string(folder.path().join("o/cost.log")).unwrap();
+    assert!(log.contains("impactlaw cost c.toml --quick"), "{log}");
     assert!(done.join("cost_V50.svg").is_file() && done.join("cost_V50.md").is_file());
     assert!(reference::assert_described(&done).contains("cost_V*.csv"));
     assert!(cost(folder.path(), "cells, degree 2").status.success());

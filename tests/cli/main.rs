@@ -8,6 +8,7 @@ mod help;
 mod impact;
 mod init;
 mod killed;
+mod kinds;
 mod owner;
 #[path = "../support/program.rs"]
 mod program;

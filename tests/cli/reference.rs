@@ -10,7 +10,7 @@ use impactlaw::command::schema::FILES;
 use impactlaw::cost::accuracy::Line;
 use impactlaw::curve::{Summary, Tangential};
 use impactlaw::document::Document;
-use impactlaw::document::reference::{Section as Place, sections};
+use impactlaw::document::reference::{Section as Place, sections, sentence};
 use impactlaw::law::LawFile;
 use impactlaw::study::Study;
 use std::collections::{BTreeMap, BTreeSet};
@@ -174,6 +174,23 @@ fn the_reference_of_the_guide_is_what_the_readers_are_made_of() {
         // type, default, example and meaning are never empty; a range may be
         for cell in [2, 4, 5, 6] {
             assert!(!cells[cell].is_empty() && cells[cell] != "``", "{line}");
+        }
+    }
+}
+
+/// "density is density: density" was said once.
+#[test]
+fn no_sentence_about_a_key_repeats_its_name_or_itself() {
+    for file in FILES {
+        let root = file.table();
+        for section in sections(&root) {
+            for key in &section.table.keys {
+                let said = sentence(key);
+                let parts: Vec<&str> = said.split([';', ',']).map(str::trim).take(2).collect();
+                let name = key.name.replace('_', " ");
+                assert!(!parts.contains(&&name[..]), "{}: {said}", key.name);
+                assert!(parts.len() < 2 || parts[0] != parts[1], "{}: {said}", key.name);
+            }
         }
     }
 }

@@ -244,6 +244,17 @@ fn an_unknown_verb_or_flag_is_refused_with_usage() {
 }
 
 #[test]
+fn a_verb_with_a_slip_of_the_finger_is_guessed() {
+    let folder = folder_with(&[]);
+    for (typed, meant) in [("rnu", "run"), ("fti", "fit"), ("bd", "bed"), ("bedd", "bed"), ("impct", "impact")] {
+        let said = message(&impactlaw(folder.path(), &[typed, "case.toml"]));
+        assert!(said.contains(&format!("'{meant}'")), "{typed}: {said}");
+    }
+    let said = message(&impactlaw(folder.path(), &["xyz"]));
+    assert!(!said.contains("similar"), "{said}");
+}
+
+#[test]
 fn a_law_file_of_another_schema_is_refused() {
     let folder = folder_with(&[("law.toml", "schema = 99\n")]);
     let arguments = [
@@ -339,6 +350,43 @@ fn the_whole_path_leaves_files_that_a_person_can_open() {
     }
     for fetched in ["<script", "<link", "src=\"http", "href=\"http"] {
         assert!(!html.contains(fetched), "{fetched}");
+    }
+}
+
+/// What a program prints when a run has ended, and the logs that every verb leaves beside its results.
+#[test]
+fn a_run_ends_with_its_figures_for_people_and_for_programs_and_every_verb_leaves_a_log() {
+    let folder = folder_with(&[("case.toml", &CASE.replace("0.02", "0.1"))]);
+    let printed = |arguments: &[&str]| {
+        let output = impactlaw(folder.path(), arguments);
+        assert!(output.status.success(), "{}", message(&output));
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let text = printed(&["run", "case.toml", "--out", "out"]);
+    let summary = std::fs::read_to_string(folder.path().join("out/impact_V10/summary.json"));
+    let summary: serde_json::Value = serde_json::from_str(&summary.unwrap()).unwrap();
+    let figure = |key: &str| summary[key].as_f64().unwrap();
+    let row = text.lines().find(|line| line.trim_start().starts_with("10 m/s")).unwrap();
+    let shown = impactlaw::unit::significant(figure("restitution"), 4);
+    assert!(row.contains(&shown), "{row}: no {shown}");
+    for (key, unit) in [("max_force_N", "N"), ("max_displacement_m", "m")] {
+        let shown = impactlaw::unit::engineering(figure(key), unit, 4);
+        assert!(row.contains(&shown), "{row}: no {shown}");
+    }
+    let json: serde_json::Value =
+        serde_json::from_str(&printed(&["run", "case.toml", "--out", "out", "--json"])).unwrap();
+    assert_eq!(json["impacts"][0]["restitution"], summary["restitution"]);
+    assert!(json["worst_error"].as_f64().unwrap() < 0.2);
+    assert!(json["comparison"].as_array().unwrap().len() > 3);
+    assert_eq!(printed(&["run", "case.toml", "--out", "out", "-q"]), "");
+    for verb in ["fit", "compare"] {
+        printed(&[verb, "case.toml", "--impacts", "out"]);
+    }
+    for verb in ["run", "fit", "compare"] {
+        let log = folder.path().join(format!("out/{verb}.log"));
+        let log = std::fs::read_to_string(log).unwrap();
+        assert!(log.contains(&format!("impactlaw {verb} case.toml")), "{log}");
+        assert!(log.contains("exit code 0"), "{log}");
     }
 }
 

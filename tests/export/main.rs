@@ -4,6 +4,7 @@ mod bed;
 mod c;
 mod codes;
 mod damping;
+mod decks;
 mod granular;
 mod lammps;
 mod liggghts;

@@ -187,3 +187,33 @@ fn a_yielding_sphere_in_three_dimensions_agrees_with_the_axisymmetric_one() {
         "{errors:?}"
     );
 }
+
+/// The fine cells cover the contact and the way it rolls: half of what a sphere that ends up rolling turns in the contact time,
+/// here from Hertz's closed form (Johnson 1985, section 11.4: 2.87 (m^2/(R E*^2 V))^(1/5)) in SI units.
+#[test]
+fn grids_in_three_dimensions_are_as_wide_as_contact_and_way_in_any_units() {
+    let plan_of = |radius: f64, modulus: f64, density: f64, friction: f64| {
+        let velocity = 0.02 * (modulus / density).sqrt();
+        let text = format!(
+            "[particle]\nradius = \"{radius} m\"\n[material]\ndensity = \"{density} kg/m3\"\nyoung_modulus = \"{modulus} Pa\"\n\
+             poisson_ratio = 0.3\n[impact]\nvelocities = [\"{velocity} m/s\"]\nangle = \"45 deg\"\n\
+             [wall]\nfriction = {friction}\n[accuracy]\ntolerance = 0.1\n"
+        );
+        let case = Case::parse(&text, Path::new("oblique.toml")).unwrap();
+        (plan(&case, velocity), velocity)
+    };
+    for (radius, modulus, density) in [(1e-3, 1e9, 1000.0), (250e-6, 100e9, 8000.0), (0.5, 70e9, 2700.0)] {
+        let (plan, velocity) = plan_of(radius, modulus, density, 0.3);
+        assert_eq!(plan.geometry, Geometry::Half);
+        let normal = velocity * 45f64.to_radians().cos();
+        let mass = 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3) * density;
+        let stiffness = modulus / (1.0 - 0.09);
+        let time = 2.87 * (mass * mass / (radius * stiffness * stiffness * normal)).powf(0.2);
+        let rolled = 0.5 * (5.0 / 7.0) * velocity * 45f64.to_radians().sin() * time / radius;
+        let width = 1.2 * plan.estimate.contact_radius + rolled;
+        let off = change(plan.grid.fine_width, width);
+        assert!(off < 0.003, "{radius} m: {} for {width}", plan.grid.fine_width);
+        // the way is a good part of it, so that a wrong unit shows
+        assert!(rolled > 0.15 * width, "{rolled} of {width}");
+    }
+}

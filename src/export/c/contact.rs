@@ -47,6 +47,7 @@ pub fn filled(template: &str, law: &Portable) -> String {
         ("@SPEED@", kernel::number(impact.velocity)),
         ("@DT@", format!("{dt:.3e}")),
         ("@STEPS@", format!("{:.0}", 1.2 * STEPS_PER_IMPACT)),
+        ("@SUGGESTED@", format!("{:.3e}", law.time_step())),
     ];
     words
         .iter()

@@ -17,6 +17,7 @@ pub use process::{Ran, find_program, run};
 pub use shim::ShimCheck;
 
 use crate::Result;
+use crate::export::Target;
 use crate::export::native::Code;
 use crate::export::source::portable::Portable;
 use std::fmt::Write;
@@ -70,19 +71,22 @@ pub trait Check {
     fn run(&self, law: &Portable, scratch: &Path) -> Result<Finding>;
 }
 
-/// Every check, in the order of the table.
+/// What proves a target; nothing runs a table.
 #[must_use]
-pub fn all() -> Vec<Box<dyn Check>> {
-    vec![
-        Box::new(CompilerCheck),
-        Box::new(NativeCheck(Code::Liggghts)),
-        Box::new(NativeCheck(Code::Lammps)),
-        Box::new(NativeCheck(Code::Yade)),
-        Box::new(liggghts::LiggghtsCheck),
-        Box::new(lammps::LammpsCheck),
-        Box::new(ShimCheck::Deme),
-        Box::new(ShimCheck::MercuryDpm),
-    ]
+pub fn of(target: Target) -> Vec<Box<dyn Check>> {
+    match target {
+        Target::C => vec![Box::new(CompilerCheck)],
+        Target::Native => vec![
+            Box::new(NativeCheck(Code::Liggghts)),
+            Box::new(NativeCheck(Code::Lammps)),
+            Box::new(NativeCheck(Code::Yade)),
+        ],
+        Target::Liggghts => vec![Box::new(liggghts::LiggghtsCheck)],
+        Target::Lammps => vec![Box::new(lammps::LammpsCheck)],
+        Target::Deme => vec![Box::new(ShimCheck::Deme)],
+        Target::MercuryDpm => vec![Box::new(ShimCheck::MercuryDpm)],
+        Target::Table => Vec::new(),
+    }
 }
 
 /// Largest of some deviations; NaN if one of them is, so that nothing undefined passes for agreement.

@@ -73,6 +73,7 @@ pub fn input(lines: &Lines, law: &Portable, target: &Target) -> Option<Artifact>
         ("@SPEED@", format!("{velocity:e}")),
         ("@DT@", format!("{:.3e}", hit.contact_time / STEPS)),
         ("@STEPS@", format!("{:.0}", 1.5 * STEPS)),
+        ("@SUGGESTED@", format!("{:.3e}", law.time_step())),
         ("@LINES@", lines.text.trim_end().to_owned()),
     ];
     let text = words

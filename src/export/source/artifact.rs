@@ -8,3 +8,15 @@ pub struct Artifact {
     /// Content.
     pub text: String,
 }
+
+impl Artifact {
+    /// The file in `folder`, unless it says so itself already.
+    #[must_use]
+    pub fn within(mut self, folder: &str) -> Self {
+        let there = self.name.strip_prefix(folder);
+        if !there.is_some_and(|rest| rest.starts_with('/')) {
+            self.name = format!("{folder}/{}", self.name);
+        }
+        self
+    }
+}

@@ -55,7 +55,7 @@ pub fn lines(law: &Portable) -> Vec<String> {
         "Suggested time step: {:.3e} s/m times the radius of the smallest body (R = {} m: {:.3e} s).",
         law.time_step_over_radius,
         law.radius(),
-        law.time_step_over_radius * law.radius()
+        law.time_step()
     );
     inertia(law, &mut text);
     let _ = writeln!(text, "{}\n", provenance(law));

@@ -87,6 +87,12 @@ impl Portable {
         self.file.provenance.radius_m
     }
 
+    /// Suggested time step for bodies of that radius, s.
+    #[must_use]
+    pub fn time_step(&self) -> f64 {
+        self.time_step_over_radius * self.radius()
+    }
+
     /// Coefficient of the inertia term; 0 where the law has none.
     #[must_use]
     pub fn inertia(&self) -> f64 {

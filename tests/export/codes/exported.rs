@@ -93,6 +93,11 @@ impl Exported {
         })
     }
 
+    /// The program with the law on so many processors.
+    pub fn command(&self, ranks: usize) -> Command {
+        self.installed.command(&self.law, &self.folder, ranks)
+    }
+
     /// Rows of `columns` numbers printed by the input `kind` of `tests/data/codes` on so many processors.
     pub fn run(
         &self,
@@ -103,7 +108,7 @@ impl Exported {
     ) -> Vec<Vec<f64>> {
         let input = self.installed.input(kind);
         put_input(&input, &self.law, &self.folder);
-        let mut command = self.installed.command(&self.law, &self.folder, ranks);
+        let mut command = self.command(ranks);
         command.arg("-in").arg(input);
         for (name, value) in variables {
             command.args(["-var", name, value]);

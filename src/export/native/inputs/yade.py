@@ -1,7 +1,8 @@
 # Impact of two equal spheres under a model of YADE (2023.02): overlap, rate of approach and force.
 #     V=@SPEED@ DT=@DT@ STEPS=@STEPS@ yade -n -x @FILE@
 # V: relative speed, m/s; DT: time step, s. The restitution is the last rate over -V. The lines of the material hold for this
-# radius. Spheres only: against a wall or facet the model divides by the radius of the second body, which has none.
+# radius. This DT shows the model to many digits; a deck is well served by @SUGGESTED@ s, in proportion to the smallest radius.
+# Spheres only: against a wall or facet the model divides by the radius of the second body, which has none.
 import os
 
 from yade import *

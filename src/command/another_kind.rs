@@ -1,0 +1,47 @@
+//! A file of another kind than a verb reads: said as what it is, with the verb that reads it.
+
+use super::quoted;
+use super::schema::{FILES, FileKind};
+use crate::document::keys::Kind;
+use crate::document::misfit::misfits;
+use crate::{Error, Place};
+use toml::de::{DeTable, DeValue};
+
+/// `error`, or, where its file fits another kind of input file better than the one it was read as, what the file is.
+#[must_use]
+pub fn named(error: Error) -> Error {
+    let (Error::Value { path, place, .. } | Error::Syntax { path, place, .. }) = &error else {
+        return error;
+    };
+    let Some((wanted, found)) = place.as_deref().and_then(other) else {
+        return error;
+    };
+    let file = quoted(&path.to_string_lossy());
+    Error::Refused {
+        what: path.display().to_string(),
+        found: format!("a {} file", found.name),
+        allowed: format!(
+            "must be a {} file; this one goes to `{}`",
+            wanted.name,
+            found.next.replace("FILE", &file)
+        ),
+    }
+}
+
+/// The kind that the text was read as and the one it is of, if they differ.
+fn other(place: &Place) -> Option<(FileKind, FileKind)> {
+    let table = DeTable::parse(&place.text).ok()?.into_inner();
+    let wanted = FILES
+        .into_iter()
+        .find(|kind| kind.table().names() == place.reader)?;
+    let own = |kind: &FileKind| {
+        let known = kind.table();
+        table.keys().filter(|key| known.key(key.get_ref()).is_some()).count()
+    };
+    let half = table.len().div_ceil(2);
+    let value = DeValue::Table(table.clone());
+    let wrong = |kind: &FileKind| misfits(&Kind::Table(kind.table()), &value);
+    let found = FILES.into_iter().min_by_key(wrong)?;
+    let better = wrong(&found) < wrong(&wanted) && own(&found) >= half.max(1);
+    better.then_some((wanted, found))
+}
