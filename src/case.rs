@@ -360,7 +360,12 @@ impl ImpactTable {
         let key = "impact.angle";
         let allowed = 0.0..=85f64.to_radians();
         self.angle.map_or(Ok(0.0), |angle| {
-            document.check(key, angle.si(), |angle| allowed.contains(&angle), &document.must(key))
+            document.check(
+                key,
+                angle.si(),
+                |angle| allowed.contains(&angle),
+                &document.must(key),
+            )
         })
     }
 }

@@ -125,7 +125,7 @@ impl Document {
             };
             Error::Syntax {
                 path: self.path.clone(),
-                place: self.place(span, about.as_deref()),
+                place: Some(self.place(span, about.as_deref())),
                 message: match key {
                     Some(key) => format!("`{key}`: {message}"),
                     None => message,
@@ -155,12 +155,12 @@ impl Document {
             key: key.to_owned(),
             found,
             allowed: allowed.into(),
-            place: self.place(span, Some(key)),
+            place: Some(self.place(span, Some(key))),
         }
     }
 
     /// A place in the text, with what the reference says of the key that stands there.
-    fn place(&self, span: Option<Range<usize>>, key: Option<&str>) -> Option<Box<Place>> {
+    fn place(&self, span: Option<Range<usize>>, key: Option<&str>) -> Box<Place> {
         let explained = || {
             let root = self.reader.0.get()?();
             let key = root.at(key?)?;
@@ -170,13 +170,11 @@ impl Document {
             Some(keys::Kind::Table(table)) => table.names(),
             _ => Vec::new(),
         };
-        span.map(|span| {
-            Box::new(Place {
-                text: self.text.clone(),
-                span,
-                explanation: explained(),
-                reader,
-            })
+        Box::new(Place {
+            text: self.text.clone(),
+            span,
+            explanation: explained(),
+            reader,
         })
     }
 
@@ -446,7 +444,7 @@ mod tests {
         let Error::Syntax { message, place, .. } = error else {
             panic!("{error:?}")
         };
-        (message, place.map(|place| place.span))
+        (message, place.and_then(|place| place.span))
     }
 
     #[test]

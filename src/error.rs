@@ -107,8 +107,8 @@ pub enum Error {
 pub struct Place {
     /// The whole text.
     pub text: String,
-    /// Byte range in it.
-    pub span: Range<usize>,
+    /// Byte range in it; none for what is not there.
+    pub span: Option<Range<usize>>,
     /// What the reference says of the key that stands there.
     pub explanation: Option<String>,
     /// Keys at the top of the kind of file it was read as.

@@ -62,7 +62,7 @@ fn accepted() -> Vec<(String, String)> {
         ("`material.poisson_ratio`", format!("0 to {LARGEST_POISSON}")),
         (
             "`material.yield_strength`",
-            format!("E/{:e} to E/{}", 1.0 / LEAST_STRENGTH, 1.0 / LARGEST_STRENGTH),
+            format!("E/{:e} to E/{}", (1.0 / LEAST_STRENGTH).round(), 1.0 / LARGEST_STRENGTH),
         ),
         (
             "`material.hardening_modulus` and other stresses",
@@ -222,7 +222,9 @@ fn flow_slip(constant: &Constant, value: f64, modulus: f64, strength: f64) -> Sl
         Dimension::Stress if share > 1.0 => Some("it is above young_modulus".to_owned()),
         Dimension::Stress if value > 0.0 && value < LEAST_STRESS * strength => {
             let ratio = significant(value / strength, 3);
-            Some(format!("it is {ratio} of yield_strength, which changes nothing; 0 is none"))
+            Some(format!(
+                "it is {ratio} of yield_strength, which changes nothing; 0 is none"
+            ))
         }
         _ => None,
     }

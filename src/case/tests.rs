@@ -295,16 +295,23 @@ fn a_metal_whose_stresses_have_all_lost_a_prefix_is_a_slip() {
         .replace("100 GPa", "100 MPa")
         .replace("1.25 GPa", "1.25 MPa")
         .replace("\"2 GPa\"", "\"2 MPa\"");
-    let said = Case::parse(&text, Path::new("c.toml")).unwrap_err().to_string();
-    let why = "check the unit of material.young_modulus: 100 MPa is less than metals and ceramics have";
+    let said = Case::parse(&text, Path::new("c.toml"))
+        .unwrap_err()
+        .to_string();
+    let why =
+        "check the unit of material.young_modulus: 100 MPa is less than metals and ceramics have";
     assert!(said.contains(why), "{said}");
 }
 
 #[test]
 fn a_body_that_no_impact_leaves_anything_of_is_a_slip() {
-    let text = GOOD.replace("1.25 GPa", "2 MPa").replace("50 m/s", "300 m/s");
+    let text = GOOD
+        .replace("1.25 GPa", "2 MPa")
+        .replace("50 m/s", "300 m/s");
     let text = text.replace("hardening_modulus = \"2 GPa\"\n", "");
-    let text = Case::parse(&text, Path::new("c.toml")).unwrap_err().to_string();
+    let text = Case::parse(&text, Path::new("c.toml"))
+        .unwrap_err()
+        .to_string();
     assert!(text.contains("rho V^2/Y = 360: nothing is left"), "{text}");
 }
 

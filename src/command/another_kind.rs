@@ -36,7 +36,10 @@ fn other(place: &Place) -> Option<(FileKind, FileKind)> {
         .find(|kind| kind.table().names() == place.reader)?;
     let own = |kind: &FileKind| {
         let known = kind.table();
-        table.keys().filter(|key| known.key(key.get_ref()).is_some()).count()
+        table
+            .keys()
+            .filter(|key| known.key(key.get_ref()).is_some())
+            .count()
     };
     let half = table.len().div_ceil(2);
     let value = DeValue::Table(table.clone());

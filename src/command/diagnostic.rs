@@ -32,7 +32,7 @@ fn report(error: &Error) -> Report {
         path,
         Place {
             text,
-            span,
+            span: Some(span),
             explanation,
             ..
         },

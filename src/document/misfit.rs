@@ -23,7 +23,10 @@ pub fn misfits(kind: &Kind, value: &DeValue) -> usize {
         }
         (Kind::Named(table), DeValue::Table(entries)) => {
             let kind = Kind::Table(table.clone());
-            entries.values().map(|one| misfits(&kind, one.get_ref())).sum()
+            entries
+                .values()
+                .map(|one| misfits(&kind, one.get_ref()))
+                .sum()
         }
         (Kind::Variants(tag, variants), DeValue::Table(entries)) => {
             let name = entries.get(*tag).and_then(|name| name.get_ref().as_str());

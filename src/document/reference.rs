@@ -136,7 +136,10 @@ pub fn sentence(key: &Key) -> String {
     };
     let example = Some(key.line.example()).filter(|example| !example.is_empty());
     let example = example.map(|example| format!("e.g. {example}"));
-    let rest: Vec<String> = [kind, range, Some(default), example].into_iter().flatten().collect();
+    let rest: Vec<String> = [kind, range, Some(default), example]
+        .into_iter()
+        .flatten()
+        .collect();
     match meaning {
         Some(meaning) => format!("{meaning}; {}", rest.join(", ")),
         None => rest.join(", "),

@@ -94,7 +94,8 @@ fn of_kind(kind: &Kind, range: &str, quantities: &mut Map<String, Value>) -> Val
                         .entry(key.name.clone())
                         .or_insert_with(|| json!({ "description": meaning }));
                 }
-                let chosen = json!({ "properties": { *tag: { "const": name } }, "required": [tag] });
+                let chosen =
+                    json!({ "properties": { *tag: { "const": name } }, "required": [tag] });
                 let table = of_table(table, Some((*tag, *name)), quantities);
                 choices.push(json!({ "if": chosen, "then": table }));
             }

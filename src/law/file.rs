@@ -253,9 +253,19 @@ impl LawFile {
         let near = |truth: f64| move |x: f64| (x / truth - 1.0).abs() < YIELD_ROUNDING;
         let key = "yield_point.displacement_over_radius";
         let near_displacement = near(point.displacement);
-        document.check(key, table.displacement_over_radius, near_displacement, &document.must(key))?;
+        document.check(
+            key,
+            table.displacement_over_radius,
+            near_displacement,
+            &document.must(key),
+        )?;
         let key = "yield_point.force_over_radius2_Pa";
-        document.check(key, table.force_over_radius2_pa, near(point.force), &document.must(key))?;
+        document.check(
+            key,
+            table.force_over_radius2_pa,
+            near(point.force),
+            &document.must(key),
+        )?;
         Ok(())
     }
 

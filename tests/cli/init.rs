@@ -51,7 +51,10 @@ fn every_preset_is_written_and_read_and_nothing_is_overwritten() {
 
 #[test]
 fn the_guide_shows_the_scene_that_is_written() {
-    let preset = PRESETS.iter().find(|preset| preset.name == "mixture").unwrap();
+    let preset = PRESETS
+        .iter()
+        .find(|preset| preset.name == "mixture")
+        .unwrap();
     let written = text(preset);
     let (_, body) = written.split_once("explains every key.\n").unwrap();
     let guide = include_str!("../../src/guide/bed.md");
@@ -70,7 +73,10 @@ fn a_new_scene_of_two_materials_runs_to_its_end_and_leaves_a_log() {
     // grains that yield: the law of a material is what the program is about
     let summary = folder.path().join("out/bed/own/summary.json");
     let summary: Value = serde_json::from_str(&std::fs::read_to_string(summary).unwrap()).unwrap();
-    assert!(summary["plastic_share"].as_f64().unwrap() > 0.1, "{summary}");
+    assert!(
+        summary["plastic_share"].as_f64().unwrap() > 0.1,
+        "{summary}"
+    );
     let log = std::fs::read_to_string(folder.path().join("out/bed.log")).unwrap();
     for part in [
         "impactlaw bed mine.toml --out out",

@@ -25,20 +25,37 @@ const READERS: [(&str, &[&str]); 16] = [
     ("case", &["fit", "FILE"]),
     ("case", &["compare", "FILE"]),
     ("case", &["cost", "FILE"]),
-    ("case", &["theory", "hertz", "FILE", "--velocities", "1 m/s"]),
+    (
+        "case",
+        &["theory", "hertz", "FILE", "--velocities", "1 m/s"],
+    ),
     ("scene", &["bed", "FILE"]),
     ("scene", &["bed", "export", "FILE", "--to", "lammps"]),
     ("law", &["bed", "SCENE", "--law", "FILE"]),
-    ("law", &["bed", "export", "SCENE", "--to", "lammps", "--law", "FILE"]),
+    (
+        "law",
+        &["bed", "export", "SCENE", "--to", "lammps", "--law", "FILE"],
+    ),
     ("study", &["study", "FILE"]),
     ("law", &["export", "FILE", "--to", "c"]),
     ("law", &["export", "LAW", "--with", "FILE", "--to", "c"]),
-    ("law", &["law", "eval", "FILE", "--body", "1 mm", "--displacements", "1 um"]),
+    (
+        "law",
+        &[
+            "law",
+            "eval",
+            "FILE",
+            "--body",
+            "1 mm",
+            "--displacements",
+            "1 um",
+        ],
+    ),
     ("law", &["compare", "CASE", "--law", "FILE"]),
 ];
 
 fn arguments(line: &[&str], file: &str) -> Vec<String> {
-    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/bed-oedometer.toml");
+    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/solder-bed.toml");
     let word = |word: &&str| match *word {
         "FILE" => file.to_owned(),
         "SCENE" => scene.to_str().unwrap().to_owned(),
@@ -77,7 +94,9 @@ fn a_file_of_another_kind_is_called_what_it_is_by_every_verb() {
 fn every_verb_that_reads_a_file_is_asked() {
     for kind in FILES {
         let verb = kind.next.split(' ').nth(1).unwrap();
-        let asked = READERS.iter().any(|(name, line)| *name == kind.name && line[0] == verb);
+        let asked = READERS
+            .iter()
+            .any(|(name, line)| *name == kind.name && line[0] == verb);
         assert!(asked, "{}: {verb}", kind.name);
     }
 }

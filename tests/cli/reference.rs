@@ -189,7 +189,11 @@ fn no_sentence_about_a_key_repeats_its_name_or_itself() {
                 let parts: Vec<&str> = said.split([';', ',']).map(str::trim).take(2).collect();
                 let name = key.name.replace('_', " ");
                 assert!(!parts.contains(&&name[..]), "{}: {said}", key.name);
-                assert!(parts.len() < 2 || parts[0] != parts[1], "{}: {said}", key.name);
+                assert!(
+                    parts.len() < 2 || parts[0] != parts[1],
+                    "{}: {said}",
+                    key.name
+                );
             }
         }
     }

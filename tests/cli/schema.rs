@@ -108,7 +108,13 @@ fn shipped_files_hold_to_their_schemas_and_slips_do_not() {
     let good = texts.len();
     // a wrong key, a wrong type, a wrong unit, a missing unit, a sign, a bound, a name, a missing key
     let slips = [
-        ("case", "thesis-4-4", "radius = ", "radus = ", "particle/radus"),
+        (
+            "case",
+            "thesis-4-4",
+            "radius = ",
+            "radus = ",
+            "particle/radus",
+        ),
         (
             "case",
             "thesis-4-4",
@@ -160,8 +166,20 @@ fn shipped_files_hold_to_their_schemas_and_slips_do_not() {
             "measure/0/kind",
         ),
         // a wrong key is blamed itself, not the table it stands in, whatever chose the table
-        ("scene", "bed-drum", "duration = ", "duratoin = ", "stage/0/duratoin"),
-        ("scene", "bed-drum", "insertion = ", "insertoin = ", "grains/insertoin"),
+        (
+            "scene",
+            "bed-drum",
+            "duration = ",
+            "duratoin = ",
+            "stage/0/duratoin",
+        ),
+        (
+            "scene",
+            "bed-drum",
+            "insertion = ",
+            "insertoin = ",
+            "grains/insertoin",
+        ),
         ("scene", "bed-drum", "seed = 1", "seed = 1.5", "seed"),
         ("law", "sac305-solder", "form = \"", "form = \"x", "form"),
     ];

@@ -246,7 +246,13 @@ fn an_unknown_verb_or_flag_is_refused_with_usage() {
 #[test]
 fn a_verb_with_a_slip_of_the_finger_is_guessed() {
     let folder = folder_with(&[]);
-    for (typed, meant) in [("rnu", "run"), ("fti", "fit"), ("bd", "bed"), ("bedd", "bed"), ("impct", "impact")] {
+    for (typed, meant) in [
+        ("rnu", "run"),
+        ("fti", "fit"),
+        ("bd", "bed"),
+        ("bedd", "bed"),
+        ("impct", "impact"),
+    ] {
         let said = message(&impactlaw(folder.path(), &[typed, "case.toml"]));
         assert!(said.contains(&format!("'{meant}'")), "{typed}: {said}");
     }
@@ -366,7 +372,10 @@ fn a_run_ends_with_its_figures_for_people_and_for_programs_and_every_verb_leaves
     let summary = std::fs::read_to_string(folder.path().join("out/impact_V10/summary.json"));
     let summary: serde_json::Value = serde_json::from_str(&summary.unwrap()).unwrap();
     let figure = |key: &str| summary[key].as_f64().unwrap();
-    let row = text.lines().find(|line| line.trim_start().starts_with("10 m/s")).unwrap();
+    let row = text
+        .lines()
+        .find(|line| line.trim_start().starts_with("10 m/s"))
+        .unwrap();
     let shown = impactlaw::unit::significant(figure("restitution"), 4);
     assert!(row.contains(&shown), "{row}: no {shown}");
     for (key, unit) in [("max_force_N", "N"), ("max_displacement_m", "m")] {
@@ -385,7 +394,10 @@ fn a_run_ends_with_its_figures_for_people_and_for_programs_and_every_verb_leaves
     for verb in ["run", "fit", "compare"] {
         let log = folder.path().join(format!("out/{verb}.log"));
         let log = std::fs::read_to_string(log).unwrap();
-        assert!(log.contains(&format!("impactlaw {verb} case.toml")), "{log}");
+        assert!(
+            log.contains(&format!("impactlaw {verb} case.toml")),
+            "{log}"
+        );
         assert!(log.contains("exit code 0"), "{log}");
     }
 }

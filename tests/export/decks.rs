@@ -22,12 +22,19 @@ fn run(code: Code, first: &str) -> Option<[f64; 2]> {
     let said = succeed(command.args(["-in", "deck.in"]));
     let rows: Vec<Vec<f64>> = said
         .lines()
-        .map(|line| line.split_whitespace().map_while(|word| word.parse().ok()).collect())
+        .map(|line| {
+            line.split_whitespace()
+                .map_while(|word| word.parse().ok())
+                .collect()
+        })
         .filter(|row: &Vec<f64>| row.len() >= 3 && row[0] % 20_000.0 == 0.0)
         .collect();
     let ends = [rows.first().unwrap()[0], rows.last().unwrap()[0]];
     assert_eq!(ends, [0.0, 60_000.0], "{said}");
-    assert!(said.contains("36 atoms") && !said.contains("WARNING: Lost"), "{said}");
+    assert!(
+        said.contains("36 atoms") && !said.contains("WARNING: Lost"),
+        "{said}"
+    );
     Some([&rows[0], &rows[rows.len() - 1]].map(|row| row[energy(code)]))
 }
 

@@ -195,18 +195,32 @@ fn every_target_has_a_folder_of_its_own_and_a_check_is_of_the_targets_asked_for(
     let said = String::from_utf8(output.stdout).unwrap();
     assert!(said.contains("time step for a deck"), "{said}");
     for target in impactlaw::export::Target::ALL {
-        assert!(folder.path().join("all").join(target.name()).is_dir(), "{target}");
+        assert!(
+            folder.path().join("all").join(target.name()).is_dir(),
+            "{target}"
+        );
     }
     let loose = std::fs::read_dir(folder.path().join("all")).unwrap();
     assert!(loose.map(Result::unwrap).all(|entry| entry.path().is_dir()));
     let checked = |to: &str| {
-        let output = impactlaw(folder.path(), &["export", law, "--to", to, "-o", "c", "--check"]);
-        let text = String::from_utf8(output.stdout).unwrap() + &String::from_utf8_lossy(&output.stderr);
+        let output = impactlaw(
+            folder.path(),
+            &["export", law, "--to", to, "-o", "c", "--check"],
+        );
+        let text =
+            String::from_utf8(output.stdout).unwrap() + &String::from_utf8_lossy(&output.stderr);
         let head = |line: &&str| !line.starts_with([' ', '/']) && line.contains(':');
-        text.lines().filter(head).map(str::to_owned).collect::<Vec<_>>()
+        text.lines()
+            .filter(head)
+            .map(str::to_owned)
+            .collect::<Vec<_>>()
     };
     let c = checked("c");
-    assert!(c.iter().any(|line| line.starts_with("C ") || line.starts_with("C:")), "{c:?}");
+    assert!(
+        c.iter()
+            .any(|line| line.starts_with("C ") || line.starts_with("C:")),
+        "{c:?}"
+    );
     for other in ["LIGGGHTS", "LAMMPS", "YADE", "DEM-Engine", "MercuryDPM"] {
         assert!(!c.iter().any(|line| line.contains(other)), "{c:?}");
     }

@@ -202,7 +202,11 @@ fn grids_in_three_dimensions_are_as_wide_as_contact_and_way_in_any_units() {
         let case = Case::parse(&text, Path::new("oblique.toml")).unwrap();
         (plan(&case, velocity), velocity)
     };
-    for (radius, modulus, density) in [(1e-3, 1e9, 1000.0), (250e-6, 100e9, 8000.0), (0.5, 70e9, 2700.0)] {
+    for (radius, modulus, density) in [
+        (1e-3, 1e9, 1000.0),
+        (250e-6, 100e9, 8000.0),
+        (0.5, 70e9, 2700.0),
+    ] {
         let (plan, velocity) = plan_of(radius, modulus, density, 0.3);
         assert_eq!(plan.geometry, Geometry::Half);
         let normal = velocity * 45f64.to_radians().cos();
@@ -212,7 +216,11 @@ fn grids_in_three_dimensions_are_as_wide_as_contact_and_way_in_any_units() {
         let rolled = 0.5 * (5.0 / 7.0) * velocity * 45f64.to_radians().sin() * time / radius;
         let width = 1.2 * plan.estimate.contact_radius + rolled;
         let off = change(plan.grid.fine_width, width);
-        assert!(off < 0.003, "{radius} m: {} for {width}", plan.grid.fine_width);
+        assert!(
+            off < 0.003,
+            "{radius} m: {} for {width}",
+            plan.grid.fine_width
+        );
         // the way is a good part of it, so that a wrong unit shows
         assert!(rolled > 0.15 * width, "{rolled} of {width}");
     }
