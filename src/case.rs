@@ -10,7 +10,7 @@ use crate::{Error, Result};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 
-mod slips;
+pub(crate) mod slips;
 
 /// A checked case, SI units. Read with [`Case::read`].
 #[derive(Debug, Clone, PartialEq)]

@@ -1,26 +1,29 @@
 //! Study: a grid of cases, and which of them are the same run in dimensionless terms.
 
+mod axis;
+mod file;
+mod groups;
 mod kept;
+mod list;
 
+pub use groups::{Groups, REFERENCE};
 pub use kept::KeptRun;
 
+use self::file::StudyFile;
+use self::list::{Lists, samples};
 use crate::Result;
-use crate::case::Case;
+use crate::case::{Case, slips};
 use crate::curve::{Particle, Summary, Tangential};
 use crate::document::Document;
-use crate::document::keys::{Kind, Value as _, key, keys, table};
-use crate::material::{Flow, Material, ReferenceUnits};
-use crate::unit::{Density, Length, Pressure, Quantity, Velocity};
+use crate::document::keys::{Kind, Value as _};
+use crate::material::ReferenceUnits;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
-use serde::Deserialize;
+use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Most cases of a study: more are a slip of a list, or want to be several files.
-const MOST_CASES: usize = 100_000;
-
-/// A grid of cases, each with one speed, in the order of the file: radius, density, modulus, ratio E/Y, Poisson's ratio,
-/// speed (the last one fastest).
+/// Cases, each with one speed, in the order of the file: radius, density, modulus, strength and hardening, Poisson's ratio,
+/// tolerance, friction, angle, speed (the last one fastest), then the samples of a hypercube; one `[[case]]` after the other.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Study {
     /// Name: the file's stem.
@@ -29,78 +32,6 @@ pub struct Study {
     pub hash: String,
     /// The cases.
     pub cases: Vec<Case>,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct StudyFile {
-    particle: ParticleTable,
-    material: MaterialTable,
-    impact: ImpactTable,
-    accuracy: AccuracyTable,
-}
-
-keys! {
-    StudyFile {
-        particle: table("the particles"),
-        material: table("their materials"),
-        impact: table("speeds"),
-        accuracy: table("what the runs are planned for"),
-    }
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ParticleTable {
-    radius: Vec<Quantity<Length>>,
-}
-
-keys! {
-    ParticleTable {
-        radius: key("radii", "> 0", "['250 um']"),
-    }
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct MaterialTable {
-    density: Vec<Quantity<Density>>,
-    young_modulus: Vec<Quantity<Pressure>>,
-    young_over_yield: Vec<f64>,
-    poisson_ratio: Vec<f64>,
-}
-
-keys! {
-    MaterialTable {
-        density: key("densities", "> 0", "['1000 kg/m3', '8000 kg/m3']"),
-        young_modulus: key("Young's moduli", "> 0", "['100 GPa']"),
-        young_over_yield: key("E/Y", "> 1", "[20, 80]"),
-        poisson_ratio: key("Poisson's ratios", "[0, 0.5)", "[0.35]"),
-    }
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ImpactTable {
-    velocities: Vec<Quantity<Velocity>>,
-}
-
-keys! {
-    ImpactTable {
-        velocities: key("impact speeds", "> 0", "['10 m/s', '50 m/s']"),
-    }
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct AccuracyTable {
-    tolerance: f64,
-}
-
-keys! {
-    AccuracyTable {
-        tolerance: key("as in a case file", "(0, 0.2]", "0.02"),
-    }
 }
 
 impl Study {
@@ -120,68 +51,59 @@ impl Study {
 
     /// Check a study file that has been read already.
     ///
+    /// ```
+    /// use impactlaw::document::Document;
+    /// use impactlaw::study::Study;
+    /// let text = r#"
+    ///     samples = 5
+    ///     [particle]
+    ///     radius = "250 um"
+    ///     [material]
+    ///     density = "8000 kg/m3"
+    ///     young_modulus = "100 GPa"
+    ///     young_over_yield = { from = 20, to = 2560, scale = "log" }
+    ///     poisson_ratio = [0.25, 0.35]
+    ///     [impact]
+    ///     velocities = { from = "10 m/s", to = "50 m/s" }
+    ///     [accuracy]
+    ///     tolerance = 0.02
+    /// "#;
+    /// let study = Study::from_document(&Document::new("cube.toml".as_ref(), text))?;
+    /// // both ratios with the five samples of the hypercube
+    /// assert_eq!(study.cases.len(), 10);
+    /// # Ok::<(), impactlaw::Error>(())
+    /// ```
+    ///
     /// # Errors
     /// As [`Study::read`].
     pub fn from_document(document: &Document) -> Result<Self> {
         let file: StudyFile = document.parse()?;
-        let m = &file.material;
-        let radii = positive(document, "particle.radius", &file.particle.radius)?;
-        let densities = positive(document, "material.density", &m.density)?;
-        let moduli = positive(document, "material.young_modulus", &m.young_modulus)?;
-        let velocities = positive(document, "impact.velocities", &file.impact.velocities)?;
-        let ratios = within(document, "material.young_over_yield", &m.young_over_yield)?;
-        let poissons = within(document, "material.poisson_ratio", &m.poisson_ratio)?;
-        let tolerance = document.within("accuracy.tolerance", file.accuracy.tolerance)?;
-        let lists = [
-            ("particle.radius", radii.len()),
-            ("material.density", densities.len()),
-            ("material.young_modulus", moduli.len()),
-            ("material.young_over_yield", ratios.len()),
-            ("material.poisson_ratio", poissons.len()),
-            ("impact.velocities", velocities.len()),
-        ];
-        check_count(document, &lists)?;
-        let heaviest = densities.iter().copied().fold(0.0, f64::max);
-        let softest = moduli.iter().copied().fold(f64::INFINITY, f64::min);
-        let weakest = softest / ratios.iter().copied().fold(1.0, f64::max);
-        for (i, v) in velocities.iter().enumerate() {
-            document.check(
-                &format!("impact.velocities[{i}]"),
-                *v,
-                |v| (heaviest * v * v / weakest).is_finite() && heaviest * v * v <= softest,
-                "must not be above the speed of sound sqrt(E/rho) of any of the materials; check the unit",
-            )?;
-        }
-        let case = |radius: f64, material: Material, velocity: f64| Case {
-            name: document.name(),
-            path: document.path().to_owned(),
-            hash: document.hash(),
-            radius,
-            material,
-            velocities: vec![velocity],
-            angle: 0.0,
-            friction: 0.0,
-            tolerance,
-            bed: None,
+        slips::check_names(document, &file.unusual)?;
+        let blocks = file.blocks(document)?;
+        let samples = samples(document, &file, &blocks)?;
+        let lists = Lists {
+            document,
+            unusual: &file.unusual,
+            seed: file.seed.unwrap_or(0),
+            samples: &samples,
         };
+        lists.check_count(&blocks)?;
         let mut cases = Vec::new();
-        for &radius in &radii {
-            for &density in &densities {
-                for &young_modulus in &moduli {
-                    for &ratio in &ratios {
-                        for &poisson_ratio in &poissons {
-                            let flow = Some(Flow::perfectly_plastic(young_modulus / ratio));
-                            let material = Material {
-                                density,
-                                young_modulus,
-                                poisson_ratio,
-                                flow,
-                            };
-                            cases.extend(velocities.iter().map(|v| case(radius, material, *v)));
-                        }
-                    }
-                }
+        let mut seen: BTreeMap<String, usize> = BTreeMap::new();
+        for (i, block) in blocks.iter().enumerate() {
+            let own = lists.cases(block, i as u64)?;
+            // lists hold each value once: only blocks can repeat each other
+            for case in own.iter().filter(|_| blocks.len() > 1) {
+                let Some(before) = seen.insert(list::identity(case), i).filter(|b| *b != i) else {
+                    continue;
+                };
+                let allowed = format!(
+                    "must not make a case that `{}` makes too (V = {} m/s)",
+                    blocks[before].key, case.velocities[0]
+                );
+                return Err(document.reject(&block.key, allowed));
             }
+            cases.extend(own);
         }
         Ok(Study {
             name: document.name(),
@@ -189,35 +111,6 @@ impl Study {
             cases,
         })
     }
-}
-
-/// That the lists, each with its key, make a number of cases that can be held.
-fn check_count(document: &Document, lists: &[(&str, usize)]) -> Result<()> {
-    let all = lists
-        .iter()
-        .try_fold(1usize, |all, (_, length)| all.checked_mul(*length));
-    if all.is_some_and(|all| all <= MOST_CASES) {
-        return Ok(());
-    }
-    let longest = lists.iter().max_by_key(|(_, length)| *length);
-    let key = longest.map_or("impact.velocities", |(key, _)| key);
-    let allowed = format!("must be shorter: all lists together make more than {MOST_CASES} cases");
-    Err(document.reject(key, allowed))
-}
-
-/// SI values of a list of quantities, as [`within`].
-fn positive<D: Copy>(document: &Document, key: &str, list: &[Quantity<D>]) -> Result<Vec<f64>> {
-    let values: Vec<f64> = list.iter().map(|quantity| quantity.si()).collect();
-    within(document, key, &values)
-}
-
-/// All entries of a list, which must hold one, each in the range of its key.
-fn within(document: &Document, key: &str, list: &[f64]) -> Result<Vec<f64>> {
-    if list.is_empty() {
-        return Err(document.reject(key, "must hold at least one value"));
-    }
-    let entry = |(i, x): (usize, &f64)| document.within(&format!("{key}[{i}]"), *x);
-    list.iter().enumerate().map(entry).collect()
 }
 
 /// `count` of the `total` runs of a study, drawn so that they lie all over a sorted list of them: one from each of `count`
@@ -232,44 +125,10 @@ pub fn drawn(total: usize, count: usize) -> Vec<usize> {
         .collect()
 }
 
-/// Name of the run a case stands for: flow stress with its constants, density times squared speed and Poisson's ratio in
-/// reference units (R = rho = E = 1), angle, friction and tolerance, to nine digits.
-///
-/// Two cases with equal groups are the same run, scaled.
+/// Name of the run a case stands for: [`Groups::name`].
 #[must_use]
 pub fn group(case: &Case) -> String {
-    // whoever adds to a case says here whether it makes another run
-    let Case {
-        name: _,
-        path: _,
-        hash: _,
-        bed: _,
-        radius,
-        material,
-        velocities,
-        angle,
-        friction,
-        tolerance,
-    } = case;
-    let Material {
-        density,
-        young_modulus,
-        poisson_ratio,
-        flow,
-    } = material;
-    let units = ReferenceUnits::of(material, *radius);
-    let flow = flow.map_or("elastic".to_owned(), |flow| {
-        let flow = flow.in_reference(&units);
-        let constants = flow.constants().into_iter();
-        let texts = constants.map(|(constant, value)| format!("{}{value:.8e}", constant.symbol));
-        texts.collect::<Vec<_>>().join("_")
-    });
-    let speed = velocities
-        .first()
-        .map_or(0.0, |v| density * v * v / young_modulus);
-    format!(
-        "{flow}_rhoV2E{speed:.8e}_nu{poisson_ratio:e}_angle{angle:.8e}_mu{friction:e}_tol{tolerance:e}"
-    )
+    Groups::of(case).name()
 }
 
 /// Figures of one run, made in the units `from`, seen as another case of the same group: lengths scale with R, forces with
@@ -307,6 +166,7 @@ pub fn scaled(summary: &Summary, from: &ReferenceUnits, to: &Case) -> Summary {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::material::Flow;
     use crate::material::flow::LinearHardening;
 
     const TEXT: &str = r#"

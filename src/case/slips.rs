@@ -98,6 +98,66 @@ fn key_of(constant: &Constant) -> String {
 /// What is wrong with a value, when it is.
 type Slip = Option<String>;
 
+/// That `unusual` names keys that it can.
+///
+/// # Errors
+/// [`Error::Value`] naming the first one that is none.
+pub(crate) fn check_names(document: &Document, unusual: &[String]) -> Result<()> {
+    let keys = keys();
+    match unusual.iter().position(|key| !keys.contains(key)) {
+        Some(i) => {
+            let allowed = format!("must be one of {}", keys.join(", "));
+            Err(document.reject(&format!("unusual[{i}]"), allowed))
+        }
+        None => Ok(()),
+    }
+}
+
+/// Values of a case that look like a slip and are not named in `unusual`: key, index of the speed, and what to do.
+pub(crate) fn of(
+    case: &Case,
+    velocities: &[f64],
+    unusual: &[String],
+) -> Vec<(String, Option<usize>, String)> {
+    let Material {
+        density,
+        young_modulus,
+        poisson_ratio,
+        flow,
+    } = case.material;
+    let mut found = vec![
+        (RADIUS.to_owned(), None, outside(case.radius, &RADII, "m")),
+        (
+            DENSITY.to_owned(),
+            None,
+            outside(density, &DENSITIES, "kg/m³"),
+        ),
+        (
+            MODULUS.to_owned(),
+            None,
+            outside(young_modulus, &MODULI, "Pa").or_else(|| soft(density, young_modulus)),
+        ),
+        (POISSON.to_owned(), None, poisson(poisson_ratio)),
+    ];
+    let strength = flow.map_or(0.0, |flow| flow.yield_strength());
+    for (constant, value) in flow.map_or_else(Vec::new, |flow| flow.constants()) {
+        let slip = flow_slip(&constant, value, young_modulus, strength);
+        found.push((key_of(&constant), None, slip));
+    }
+    for (i, velocity) in velocities.iter().enumerate() {
+        let slip = velocity_slip(&case.material, *velocity);
+        found.push((VELOCITIES.to_owned(), Some(i), slip));
+    }
+    let told = |(key, index, slip): (String, Option<usize>, Slip)| {
+        let why = slip.filter(|_| !unusual.contains(&key))?;
+        let allowed = format!(
+            "check the unit of {key}: {why}; if it is meant, begin the file with `unusual = [\"{key}\"]`"
+        );
+        Some((key, index, allowed))
+    };
+    found.into_iter().filter_map(told).collect()
+}
+
 /// That no value of the case file is a slip, but for those named in `unusual`.
 ///
 /// # Errors
@@ -108,57 +168,14 @@ pub(super) fn check(
     document: &Document,
     unusual: &[String],
 ) -> Result<()> {
-    let keys = keys();
-    if let Some(i) = unusual.iter().position(|key| !keys.contains(key)) {
-        let allowed = format!("must be one of {}", keys.join(", "));
-        return Err(document.reject(&format!("unusual[{i}]"), allowed));
-    }
-    let Material {
-        density,
-        young_modulus,
-        poisson_ratio,
-        flow,
-    } = case.material;
-    let mut found = vec![
-        (RADIUS, RADIUS.to_owned(), outside(case.radius, &RADII, "m")),
-        (
-            DENSITY,
-            DENSITY.to_owned(),
-            outside(density, &DENSITIES, "kg/m³"),
-        ),
-        (
-            MODULUS,
-            MODULUS.to_owned(),
-            outside(young_modulus, &MODULI, "Pa").or_else(|| soft(density, young_modulus)),
-        ),
-        (POISSON, POISSON.to_owned(), poisson(poisson_ratio)),
-    ];
-    let strength = flow.map_or(0.0, |flow| flow.yield_strength());
-    let constants = flow.map_or_else(Vec::new, |flow| flow.constants());
-    let constants: Vec<(String, Slip)> = constants
-        .iter()
-        .map(|(constant, value)| {
-            let slip = flow_slip(constant, *value, young_modulus, strength);
-            (key_of(constant), slip)
-        })
-        .collect();
-    for (key, slip) in &constants {
-        found.push((key, key.clone(), slip.clone()));
-    }
-    for (i, velocity) in velocities.iter().enumerate() {
-        let slip = velocity_slip(&case.material, *velocity);
-        found.push((VELOCITIES, format!("{VELOCITIES}[{i}]"), slip));
-    }
-    for (key, place, slip) in found {
-        let meant = unusual.iter().any(|named| named == key);
-        if let Some(why) = slip.filter(|_| !meant) {
-            let allowed = format!(
-                "check the unit of {key}: {why}; if it is meant, begin the file with `unusual = [\"{key}\"]`"
-            );
-            return Err(document.reject(&place, allowed));
+    check_names(document, unusual)?;
+    match of(case, velocities, unusual).into_iter().next() {
+        Some((key, index, allowed)) => {
+            let end = index.map_or_else(String::new, |i| format!("[{i}]"));
+            Err(document.reject(&format!("{key}{end}"), allowed))
         }
+        None => Ok(()),
     }
-    Ok(())
 }
 
 /// The same for a speed of the command line; one that the file's own speeds were allowed to be is allowed here.

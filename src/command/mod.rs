@@ -23,6 +23,9 @@ pub mod run;
 pub mod schema;
 pub mod show;
 pub mod study;
+pub mod study_merge;
+pub mod study_runs;
+pub mod study_table;
 pub mod theory;
 pub mod units;
 

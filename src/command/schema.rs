@@ -35,7 +35,7 @@ pub const FILES: [FileKind; 4] = [
     },
     FileKind {
         name: "study",
-        about: "A grid of cases: every entry of each list with every entry of the others. Read by `study`.",
+        about: "Many cases: values, lists, ranges, and cases one by one. Read by `study` and `study merge`.",
         next: "impactlaw study FILE",
         kind: Study::keys,
     },

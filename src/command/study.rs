@@ -1,36 +1,51 @@
 //! Study command: runs a grid of cases in parallel, equal dimensionless groups once, and resumes where it was stopped.
 
-use super::impact::{CHECKPOINT_FILE, interval};
-use super::show;
+use super::impact::interval;
+use super::study_merge::StudyMergeArgs;
+use super::study_runs::{Queued, SHARD, planned, queue, simulated, study_folder, whole};
+use super::study_table::report;
 use super::{Command, Context, Verdict, output_folder};
-use crate::case::Case;
-use crate::curve::{Status, Summary};
-use crate::files::{rows_text, write_atomic, write_rows};
-use crate::impact::{simulate, simulate_kept};
-use crate::material::flow::{FlowConstants, InSi, Spelling};
-use crate::material::{Flow, ReferenceUnits};
-use crate::plan::{plan, plans, severity, with_cells};
-use crate::study::{KeptRun, Study, drawn, group, scaled};
-use crate::tape::Checkpoint;
+use crate::curve::Status;
 use crate::{Error, Result};
-use clap::Args;
-use rayon::prelude::*;
-use serde::Serialize;
-use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
-use std::time::Duration;
+use clap::{Args, Subcommand};
+use std::path::PathBuf;
 
-/// Figures of every group by its name, with the number of the case that stands for it.
-type Runs = BTreeMap<String, (usize, Summary)>;
-
-/// Run a grid of cases, equal dimensionless groups once: `results.csv`. Finished runs are kept and not repeated.
+/// Run the cases of a study, equal dimensionless groups once: `results.csv`. Finished runs are kept and not repeated.
 #[derive(Debug, Args)]
+#[command(
+    args_conflicts_with_subcommands = true,
+    subcommand_negates_reqs = true,
+    arg_required_else_help = true
+)]
 pub struct StudyArgs {
+    /// What to do other than run the study here.
+    #[command(subcommand)]
+    pub verb: Option<StudyVerb>,
+    /// The run.
+    #[command(flatten)]
+    pub run: Option<StudyRunArgs>,
+}
+
+/// Verbs on a study.
+#[derive(Debug, Subcommand)]
+#[allow(missing_docs)] // each verb is described by the doc comment of its arguments
+pub enum StudyVerb {
+    #[command(after_help = super::examples(StudyMergeArgs::EXAMPLES))]
+    Merge(StudyMergeArgs),
+}
+
+/// Arguments of a run.
+#[derive(Debug, Args)]
+pub struct StudyRunArgs {
     /// Study file.
     pub study: PathBuf,
     /// Output folder; by default `out/` and the study's name.
     #[arg(short, long)]
     pub out: Option<PathBuf>,
+    /// Run one of several parts, `1/4` to `4/4`, into a folder of its own below the output folder; `study merge` puts them
+    /// together.
+    #[arg(long, value_name = "K/N", conflicts_with = "refine")]
+    pub shard: Option<String>,
     /// Also run this many cases, drawn over the whole range, with cells of half the size, and compare the change with
     /// the tolerance.
     #[arg(long, default_value_t = 0)]
@@ -44,6 +59,7 @@ impl Command for StudyArgs {
     const EXAMPLES: &'static [&'static str] = &[
         "impactlaw study cases/study-480.toml",
         "impactlaw study cases/study-480.toml --refine 20 --out out/study",
+        "impactlaw study cases/study-480.toml --shard 1/4",
     ];
 
     /// Run what is not there yet, then write `results.csv`; [`Verdict::Missed`] when a case did not end with status ok.
@@ -51,291 +67,91 @@ impl Command for StudyArgs {
     /// # Errors
     /// Those of reading the study and of writing the results.
     fn run(&self, context: &Context) -> Result<Verdict> {
-        let study = Study::read(&self.study)?;
-        study
-            .cases
-            .iter()
-            .try_for_each(|case| plans(case).map(drop))?;
+        match (&self.verb, &self.run) {
+            (Some(StudyVerb::Merge(args)), _) => args.run(context),
+            (None, Some(args)) => args.run(context),
+            (None, None) => Err(Error::Argument {
+                argument: "STUDY".to_owned(),
+                found: "nothing".to_owned(),
+                allowed: "must name a study file".to_owned(),
+            }),
+        }
+    }
+}
+
+impl StudyRunArgs {
+    fn run(&self, context: &Context) -> Result<Verdict> {
+        let study = planned(&self.study)?;
         let interval = interval(&self.checkpoint)?;
-        let out = output_folder(self.out.as_deref(), &study.name)?;
+        let shard = self.shard.as_deref().map(Shard::read).transpose()?;
+        let folder = study_folder(self.out.as_deref(), &study);
+        let (out, _shards) = match shard {
+            Some(shard) => {
+                let own = folder.join(shard.folder());
+                (output_folder(Some(&own), &study.name)?, Vec::new())
+            }
+            None => whole(&folder, &study)?,
+        };
         context.open_log(&out, "study", &study.hash);
-        let runs = runs(&study, &out, interval, context)?;
-        let rows: Vec<(usize, Summary)> = study
-            .cases
-            .iter()
-            .enumerate()
-            .map(|(i, case)| {
-                let (first, summary) = &runs[&group(case)];
-                (i, scaled(summary, &units(&study.cases[*first]), case))
-            })
+        let Some(shard) = shard else {
+            let runs = simulated(&study, queue(&study), &[&out], interval, context)?;
+            return report(&study, &runs, &out, self.refine, context);
+        };
+        let all = queue(&study);
+        let own: Vec<Queued> = all
+            .into_iter()
+            .skip(shard.index)
+            .step_by(shard.of)
             .collect();
-        let path = out.join("results.csv");
-        write_atomic(
-            &path,
-            &table(&study, &rows, &context.provenance(&study.hash), &path)?,
-        )?;
-        let overview = show::study::overview(runs.values().map(|(i, s)| (&study.cases[*i], s)));
-        write_atomic(&out.join("study.md"), overview.as_bytes())?;
-        let ok = rows.iter().filter(|(_, s)| s.status == Status::Ok).count();
+        // what the whole study has already is not run again
+        let runs = simulated(&study, own, &[&out, &folder], interval, context)?;
+        let ok = runs
+            .values()
+            .filter(|(_, s)| s.status == Status::Ok)
+            .count();
         context.say(&format!(
-            "{} cases, {} runs, {ok} with status ok -> {}\n",
-            rows.len(),
+            "shard {}/{}: {} runs, {ok} with status ok -> {}\n",
+            shard.index + 1,
+            shard.of,
             runs.len(),
-            path.display()
+            out.display()
         ))?;
-        let met = match self.refine {
-            0 => true,
-            count => refinement(&study, &runs, &out, count, context)?,
-        };
-        Ok(if ok == rows.len() && met {
-            Verdict::Met
-        } else {
-            Verdict::Missed
+        Ok(match ok == runs.len() {
+            true => Verdict::Met,
+            false => Verdict::Missed,
         })
     }
 }
 
-/// Run `count` of the runs again with cells of half the size, write `refinement.csv`, and say whether every change is below
-/// the tolerance.
-///
-/// F* and delta* are held to it relatively, e as it is: a share of the impact speed. Relative to itself, an e of 0.02 would
-/// have to be right within 2 % of 4e-4 of the incident energy, less than the energy balance of any run closes to (1e-4 to
-/// 1e-3). The relative change is written beside the absolute one, and the cases that would meet it too are counted.
-fn refinement(
-    study: &Study,
-    runs: &Runs,
-    out: &Path,
-    count: usize,
-    context: &Context,
-) -> Result<bool> {
-    let mut all: Vec<(f64, usize, &Summary)> = runs
-        .values()
-        .map(|(i, summary)| (severity_of(&study.cases[*i]), *i, summary))
-        .collect();
-    all.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    let picked = drawn(all.len(), count);
-    let bar = context.progress(picked.len() as u64, "refinement");
-    let mut rows: Vec<Refined> = picked
-        .par_iter()
-        .with_max_len(1)
-        .rev()
-        .map(|&k| {
-            let (severity, i, summary) = all[k];
-            let case = &study.cases[i];
-            let halved = with_cells(plan(case, case.velocities[0]), 0.5, &case.material);
-            let fine = simulate(&case.material, case.radius, &halved)
-                .impact
-                .summary;
-            bar.inc(1);
-            Refined::new(case, severity, summary, &fine)
-        })
-        .collect();
-    bar.finish_and_clear();
-    rows.reverse();
-    let path = out.join("refinement.csv");
-    write_rows(&path, &context.provenance(&study.hash), &rows)?;
-    let met = rows.iter().filter(|r| r.met).count();
-    let relative = rows.iter().filter(|r| r.met_relatively).count();
-    context.say(&format!(
-        "{met} of {} runs change by less than the tolerance with cells of half the size ({relative} with e relative to \
-         itself) -> {}\n",
-        rows.len(),
-        path.display()
-    ))?;
-    Ok(met == rows.len())
+/// One of several parts of a study's runs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Shard {
+    /// From 0.
+    index: usize,
+    of: usize,
 }
 
-/// One row of `refinement.csv`: changes from the planned cells to cells of half the size.
-#[derive(Debug, Serialize)]
-struct Refined {
-    young_over_yield: f64,
-    #[serde(rename = "rho_V2_over_Y")]
-    severity: f64,
-    /// Relative.
-    max_force_change: f64,
-    /// Relative.
-    max_displacement_change: f64,
-    /// Absolute: e is a share of the impact speed.
-    restitution_change: f64,
-    restitution_relative_change: f64,
-    restitution: f64,
-    wall_s: f64,
-    refined_wall_s: f64,
-    refined_status: String,
-    met: bool,
-    /// The same with the relative change of e.
-    met_relatively: bool,
-}
-
-impl Refined {
-    fn new(case: &Case, severity: f64, planned: &Summary, fine: &Summary) -> Self {
-        let m = &case.material;
-        let force = planned.max_force_n / fine.max_force_n - 1.0;
-        let displacement = planned.max_displacement_m / fine.max_displacement_m - 1.0;
-        let restitution = planned.restitution - fine.restitution;
-        let relative = if fine.restitution > 0.0 {
-            planned.restitution / fine.restitution - 1.0
-        } else {
-            planned.restitution
-        };
-        let worst = force.abs().max(displacement.abs()).max(restitution.abs());
-        let both_ok = planned.status == Status::Ok && fine.status == Status::Ok;
-        Refined {
-            young_over_yield: m.flow.map_or(0.0, |f| m.young_modulus / f.yield_strength()),
-            severity,
-            max_force_change: force,
-            max_displacement_change: displacement,
-            restitution_change: restitution,
-            restitution_relative_change: relative,
-            restitution: planned.restitution,
-            wall_s: planned.wall_s,
-            refined_wall_s: fine.wall_s,
-            refined_status: match &fine.status {
-                Status::Ok => "ok".to_owned(),
-                Status::NoRebound => "no rebound".to_owned(),
-                Status::Failed(reason) => reason.clone(),
-            },
-            met: both_ok && worst < case.tolerance,
-            met_relatively: both_ok && worst.max(relative.abs()) < case.tolerance,
+impl Shard {
+    /// Of `2/4`.
+    ///
+    /// # Errors
+    /// [`Error::Argument`].
+    pub fn read(text: &str) -> Result<Self> {
+        let number = |text: &str| text.trim().parse::<usize>().ok();
+        let both = text.split_once('/');
+        let both = both.and_then(|(k, of)| Some((number(k)?, number(of)?)));
+        match both {
+            Some((k, of)) if (1..=of).contains(&k) => Ok(Shard { index: k - 1, of }),
+            _ => Err(Error::Argument {
+                argument: "--shard".to_owned(),
+                found: format!("\"{text}\""),
+                allowed: "must be K/N with K from 1 to N, e.g. 1/4".to_owned(),
+            }),
         }
     }
-}
 
-/// $\rho V^2/Y$ of a case of a study.
-fn severity_of(case: &Case) -> f64 {
-    severity(&case.material, case.velocities[0])
-}
-
-/// Units of the figures of a case.
-fn units(case: &Case) -> ReferenceUnits {
-    ReferenceUnits::of(&case.material, case.radius)
-}
-
-/// Figures of every group, by its name, with the number of the case that stands for it; finished ones are read.
-fn runs(study: &Study, out: &Path, interval: Duration, context: &Context) -> Result<Runs> {
-    let mut groups: BTreeMap<String, usize> = BTreeMap::new();
-    for (i, case) in study.cases.iter().enumerate() {
-        groups.entry(group(case)).or_insert(i);
-    }
-    let mut queue: Vec<(f64, &String, usize)> = groups
-        .iter()
-        .map(|(name, &i)| {
-            (
-                plan(&study.cases[i], study.cases[i].velocities[0]).seconds,
-                name,
-                i,
-            )
-        })
-        .collect();
-    queue.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let bar = context.progress(queue.len() as u64, "study");
-    let provenance = context.provenance(&study.hash);
-    let done = queue
-        .par_iter()
-        .with_max_len(1)
-        .map(|&(_, name, i)| {
-            let folder: PathBuf = out.join("runs").join(name);
-            let case = &study.cases[i];
-            let summary = if let Some(kept) = KeptRun::figures(&folder, name, case) {
-                tracing::info!("{name}: kept");
-                kept
-            } else {
-                let plan = plan(case, case.velocities[0]);
-                let checkpoint = Checkpoint::new(&folder.join(CHECKPOINT_FILE), interval);
-                let simulated = simulate_kept(&case.material, case.radius, &plan, &checkpoint);
-                simulated.impact.write(&folder, &provenance)?;
-                KeptRun::of(case, name).write(&folder)?;
-                let summary = simulated.impact.summary;
-                tracing::info!(
-                    "{name}: {} steps in {:.1} s (predicted {:.1} s)",
-                    summary.steps,
-                    summary.wall_s,
-                    plan.seconds
-                );
-                summary
-            };
-            bar.inc(1);
-            Ok((name.clone(), (i, summary)))
-        })
-        .collect::<Result<BTreeMap<_, _>>>();
-    bar.finish_and_clear();
-    done
-}
-
-/// A cell of `results.csv`.
-#[derive(Debug, Serialize)]
-#[serde(untagged)]
-enum Cell {
-    Number(f64),
-    Count(u64),
-    Text(String),
-}
-
-/// `results.csv`: the case, then every key of `summary.json`, one row a case.
-fn table(
-    study: &Study,
-    rows: &[(usize, Summary)],
-    provenance: &str,
-    path: &Path,
-) -> Result<Vec<u8>> {
-    let mut keys = Vec::new();
-    let mut cells: Vec<Vec<Cell>> = Vec::new();
-    for (i, summary) in rows {
-        let row = row(&study.cases[*i], summary);
-        let row = row.map_err(|e| Error::file("write", path)(e.into()))?;
-        let (names, values): (Vec<String>, Vec<Cell>) = row.into_iter().unzip();
-        keys = names;
-        cells.push(values);
-    }
-    let header = keys.into_iter().map(Cell::Text).collect();
-    cells.insert(0, header);
-    rows_text(provenance, &cells).map_err(Error::file("write", path))
-}
-
-/// Keys and values of a case and of every figure of its run in the order of `summary.json` (`velocity_m_s` first), but for
-/// `particle` and `warnings`; the status as one word, its reason after a colon.
-fn row(case: &Case, summary: &Summary) -> serde_json::Result<Vec<(String, Cell)>> {
-    let m = &case.material;
-    let flow = FlowConstants::<InSi>::of(m.flow.as_ref());
-    let mut row = vec![
-        ("density_kg_m3".to_owned(), Cell::Number(m.density)),
-        ("young_modulus_Pa".to_owned(), Cell::Number(m.young_modulus)),
-    ];
-    // of every kind: the cases of a study may differ in theirs
-    row.extend(Flow::all_constants().iter().map(|constant| {
-        let value = flow.value(constant).unwrap_or(f64::NAN);
-        (InSi::key(constant), Cell::Number(value))
-    }));
-    row.push(("poisson_ratio".to_owned(), Cell::Number(m.poisson_ratio)));
-    row.push(("radius_m".to_owned(), Cell::Number(case.radius)));
-    let text = serde_json::to_string_pretty(summary)?;
-    let value = serde_json::to_value(summary)?;
-    let keys = text.lines().filter_map(|line| {
-        line.strip_prefix("  \"")?
-            .split_once("\":")
-            .map(|(key, _)| key)
-            // neither is a figure; whose impact it is, the case's own columns say
-            .filter(|key| !["particle", "warnings"].contains(key))
-    });
-    row.extend(keys.map(|key| (key.to_owned(), cell(&value[key]))));
-    Ok(row)
-}
-
-/// A value of `summary.json`; numbers are written as in every CSV file.
-fn cell(value: &serde_json::Value) -> Cell {
-    match value {
-        serde_json::Value::Null => Cell::Number(f64::NAN),
-        serde_json::Value::Number(number) => match number.as_u64() {
-            Some(count) => Cell::Count(count),
-            None => Cell::Number(number.as_f64().unwrap_or(f64::NAN)),
-        },
-        serde_json::Value::String(word) => Cell::Text(word.clone()),
-        serde_json::Value::Object(map) => {
-            let texts = map
-                .iter()
-                .map(|(word, why)| format!("{word}: {}", why.as_str().unwrap_or_default()));
-            Cell::Text(texts.collect())
-        }
-        other => Cell::Text(other.to_string()),
+    /// Its folder below that of the study.
+    fn folder(self) -> String {
+        format!("{SHARD}{}-of-{}", self.index + 1, self.of)
     }
 }

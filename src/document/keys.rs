@@ -43,6 +43,8 @@ pub enum Kind {
     Variants(&'static str, Vec<(&'static str, Table)>),
     /// One or the other.
     Either(Box<Kind>, Box<Kind>),
+    /// A value, a list of values, or a range `{ from = A, to = B, scale = "log" }`.
+    Axis(Box<Kind>),
 }
 
 /// Keys of a table.

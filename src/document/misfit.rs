@@ -14,6 +14,15 @@ pub fn misfits(kind: &Kind, value: &DeValue) -> usize {
         (Kind::List(item) | Kind::Array(_, item), DeValue::Array(items)) => {
             items.iter().map(|one| misfits(item, one.get_ref())).sum()
         }
+        (Kind::Axis(item), DeValue::Array(items)) => {
+            items.iter().map(|one| misfits(item, one.get_ref())).sum()
+        }
+        (Kind::Axis(item), DeValue::Table(ends)) => ends
+            .values()
+            .filter(|end| misfits(item, end.get_ref()) > 0)
+            .count()
+            .saturating_sub(usize::from(ends.contains_key("scale"))),
+        (Kind::Axis(item), value) => misfits(item, value),
         (Kind::Table(table) | Kind::OneOrMany(table), DeValue::Table(entries)) => {
             in_table(table, entries, "")
         }

@@ -81,6 +81,7 @@ pub fn kind(kind: &Kind) -> String {
         Kind::Table(_) | Kind::Variants(..) => "table".to_owned(),
         Kind::OneOrMany(_) => "table or tables".to_owned(),
         Kind::Either(one, other) => format!("{}, or {}", self::kind(one), self::kind(other)),
+        Kind::Axis(item) => format!("{}, list of {}, or range", self::kind(item), plural(item)),
     }
 }
 

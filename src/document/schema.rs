@@ -105,6 +105,15 @@ fn of_kind(kind: &Kind, range: &str, quantities: &mut Map<String, Value>) -> Val
             let both = [one, other].map(|kind| of_kind(kind, range, quantities));
             json!({ "anyOf": both })
         }
+        Kind::Axis(item) => {
+            let item = of_kind(item, range, quantities);
+            let properties =
+                json!({ "from": item, "to": item, "scale": { "enum": ["linear", "log"] } });
+            let ends = json!({
+                "type": "object", "properties": properties, "required": ["from", "to"], "additionalProperties": false,
+            });
+            json!({ "anyOf": [item, { "type": "array", "items": item, "minItems": 1 }, ends] })
+        }
     }
 }
 

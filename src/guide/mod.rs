@@ -17,6 +17,7 @@ chapters! {
     first_case, "first-case.md";
     theories, "theories.md";
     bed, "bed.md";
+    study, "study.md";
     accuracy, "accuracy.md";
     solver, "solver.md";
     measured, "measured.md";

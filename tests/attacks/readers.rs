@@ -79,7 +79,13 @@ pub const READERS: &[Reader] = &[
         name: "study",
         sources: &["study.rs"],
         kind: Kind::Text,
-        seeds: || vec![file("cases/study-480.toml"), STUDY.into()],
+        seeds: || {
+            vec![
+                file("cases/study-480.toml"),
+                STUDY.into(),
+                MIXED_STUDY.into(),
+            ]
+        },
         read: study,
         share: 5,
     },
@@ -251,7 +257,11 @@ pub const READERS: &[Reader] = &[
 ];
 
 /// Files of `src` that read, but nothing that anyone writes for the program or that it keeps.
-const OTHERS: [(&str, &str); 3] = [
+const OTHERS: [(&str, &str); 4] = [
+    (
+        "command/study_merge.rs",
+        "a kept run that was just read and is copied as it is",
+    ),
     ("bed/filling/memory.rs", "the system's account of memory"),
     (
         "bed/record/mod.rs",
@@ -359,6 +369,32 @@ poisson_ratio = [0.35]
 velocities = ["20 m/s", "40 m/s"]
 [accuracy]
 tolerance = 0.2
+"#;
+
+/// Ranges, groups in place of quantities, and cases of their own.
+const MIXED_STUDY: &str = r#"
+samples = [20, 10]
+seed = 3
+[particle]
+radius = "250 um"
+[material]
+density = "8000 kg/m3"
+young_modulus = { from = "1 GPa", to = "100 GPa", scale = "log" }
+young_over_yield = { from = 20, to = 2560, scale = "log" }
+hardening_over_young = [0, 0.01]
+poisson_ratio = 0.35
+[impact]
+rho_V2_over_Y = { from = 0.01, to = 1 }
+angle = "30 deg"
+[wall]
+friction = 0.2
+[accuracy]
+tolerance = 0.2
+[[case]]
+name = "one"
+[[case]]
+material = { yield_strength = "200 MPa", young_modulus = "10 GPa" }
+impact = { V_over_Vy = [2, 20] }
 "#;
 
 fn study(bytes: &[u8], _: &Path) -> Accepted {

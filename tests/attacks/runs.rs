@@ -143,7 +143,7 @@ fn without_seconds(path: &Path, bytes: Vec<u8>) -> Vec<u8> {
     if is("html") || is("md") {
         return Vec::new();
     }
-    if !is("json") && !path.ends_with("results.csv") {
+    if !is("json") && !path.ends_with("times.csv") {
         return bytes;
     }
     let text = String::from_utf8(bytes).unwrap();

@@ -244,7 +244,7 @@ fn columns() -> BTreeMap<String, BTreeSet<String>> {
 /// Keys of an impact's summary that a normal impact without incident lacks.
 const MAY_BE_ABSENT: [&str; 2] = ["tangential", "warnings"];
 /// Keys of an impact's summary that are no figures, and not in `results.csv`; in the order of the alphabet.
-const NO_FIGURES: [&str; 4] = ["particle", "sha256", "tangential", "warnings"];
+const NO_FIGURES: [&str; 5] = ["particle", "sha256", "tangential", "wall_s", "warnings"];
 
 /// Heading under which the columns of a file stand.
 fn heading(file: &Path) -> String {

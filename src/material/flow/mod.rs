@@ -144,6 +144,15 @@ impl Flow {
         constants.iter().copied().zip(values).collect()
     }
 
+    /// The same kind with what `change` makes of the value of each constant.
+    #[must_use]
+    pub fn with_each(&self, change: impl Fn(f64) -> f64) -> Self {
+        let (name, _, values) = self.parts();
+        let values: Vec<f64> = values.into_iter().map(change).collect();
+        let kind = Self::KINDS.iter().find(|kind| kind.name == name);
+        kind.map_or(*self, |kind| (kind.of)(&values))
+    }
+
     /// Constants of all kinds, each once, in the order of the list.
     #[must_use]
     pub fn all_constants() -> Vec<Constant> {

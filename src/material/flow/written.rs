@@ -14,18 +14,20 @@ use std::marker::PhantomData;
 
 /// How a file spells constants.
 pub trait Spelling {
+    /// What a file holds for a constant: SI value, or several.
+    type Value: fmt::Debug + Clone + PartialEq;
     /// Key of a constant.
     fn key(constant: &Constant) -> String;
     /// That key with its line in the reference.
     fn described(constant: &Constant) -> Key;
-    /// SI value of what stands there.
+    /// What stands there.
     ///
     /// # Errors
     /// When it is no such value.
     fn read<'de, D: Deserializer<'de>>(
         constant: &Constant,
         from: D,
-    ) -> std::result::Result<f64, D::Error>;
+    ) -> std::result::Result<Self::Value, D::Error>;
 }
 
 /// `yield_strength = "1.25 GPa"`: case and scene files.
@@ -37,6 +39,7 @@ pub struct InText;
 pub struct InSi;
 
 impl Spelling for InText {
+    type Value = f64;
     fn key(constant: &Constant) -> String {
         constant.key.to_owned()
     }
@@ -52,6 +55,7 @@ impl Spelling for InText {
 }
 
 impl Spelling for InSi {
+    type Value = f64;
     fn key(constant: &Constant) -> String {
         format!("{}{}", constant.key, constant.dimension.suffix())
     }
@@ -68,12 +72,12 @@ impl Spelling for InSi {
 
 /// Constants of a flow stress that a table of a file holds, SI; none for an elastic body.
 #[derive(Debug, Clone, PartialEq)]
-pub struct FlowConstants<W> {
-    values: Vec<(Constant, f64)>,
+pub struct FlowConstants<W: Spelling> {
+    values: Vec<(Constant, W::Value)>,
     spelling: PhantomData<W>,
 }
 
-impl<W> Default for FlowConstants<W> {
+impl<W: Spelling> Default for FlowConstants<W> {
     fn default() -> Self {
         FlowConstants {
             values: Vec::new(),
@@ -83,6 +87,25 @@ impl<W> Default for FlowConstants<W> {
 }
 
 impl<W: Spelling> FlowConstants<W> {
+    /// Constants with what a file holds for each.
+    #[must_use]
+    pub fn new(mut values: Vec<(Constant, W::Value)>) -> Self {
+        let all = Flow::all_constants();
+        values.sort_by_key(|(constant, _)| all.iter().position(|c| c == constant));
+        FlowConstants {
+            values,
+            spelling: PhantomData,
+        }
+    }
+
+    /// The constants that the table names, with what it holds for each.
+    #[must_use]
+    pub fn named(&self) -> &[(Constant, W::Value)] {
+        &self.values
+    }
+}
+
+impl<W: Spelling<Value = f64>> FlowConstants<W> {
     /// What a file says of `flow`: its own constants, and 0 for those of other kinds that mean no effect then.
     #[must_use]
     pub fn of(flow: Option<&Flow>) -> Self {
@@ -190,7 +213,7 @@ fn kinds<W: Spelling>() -> String {
     all.join(", ")
 }
 
-impl<W: Spelling> Serialize for FlowConstants<W> {
+impl<W: Spelling<Value = f64>> Serialize for FlowConstants<W> {
     fn serialize<S: Serializer>(&self, to: S) -> std::result::Result<S::Ok, S::Error> {
         let mut map = to.serialize_map(Some(self.values.len()))?;
         for (constant, value) in &self.values {
@@ -202,7 +225,7 @@ impl<W: Spelling> Serialize for FlowConstants<W> {
 
 /// A table of a file: constants of a flow stress, and the other keys as `T` has them.
 #[derive(Debug, Clone, PartialEq)]
-pub struct WithFlow<T, W> {
+pub struct WithFlow<T, W: Spelling> {
     /// The other keys.
     pub others: T,
     /// The constants.
@@ -237,20 +260,20 @@ impl<'de, T: Deserialize<'de>, W: Spelling> Visitor<'de> for TableVisitor<T, W> 
     }
 
     fn visit_map<A: MapAccess<'de>>(self, map: A) -> std::result::Result<Self::Value, A::Error> {
-        let mut flow = FlowConstants::default();
+        let mut flow = FlowConstants::<W>::default();
         let others = T::deserialize(MapAccessDeserializer::new(Others {
             map,
             flow: &mut flow,
         }))?;
-        let all = Flow::all_constants();
-        let place = |(constant, _): &(Constant, f64)| all.iter().position(|c| c == constant);
-        flow.values.sort_by_key(place);
-        Ok(WithFlow { others, flow })
+        Ok(WithFlow {
+            others,
+            flow: FlowConstants::new(flow.values),
+        })
     }
 }
 
 /// A table without the constants of a flow stress, which are put aside.
-struct Others<'a, A, W> {
+struct Others<'a, A, W: Spelling> {
     map: A,
     flow: &'a mut FlowConstants<W>,
 }
@@ -347,9 +370,9 @@ impl<'de, K: DeserializeSeed<'de>, W: Spelling> Visitor<'de> for KeySeed<'_, K, 
 struct ValueSeed<W>(Constant, PhantomData<W>);
 
 impl<'de, W: Spelling> DeserializeSeed<'de> for ValueSeed<W> {
-    type Value = f64;
+    type Value = W::Value;
 
-    fn deserialize<D: Deserializer<'de>>(self, from: D) -> std::result::Result<f64, D::Error> {
+    fn deserialize<D: Deserializer<'de>>(self, from: D) -> std::result::Result<W::Value, D::Error> {
         W::read(&self.0, from)
     }
 }
