@@ -42,6 +42,7 @@ pub mod study;
 pub mod tape;
 pub mod theory;
 pub mod unit;
+pub mod view;
 
 pub use error::{Error, Place, Result};
 

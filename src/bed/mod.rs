@@ -3,7 +3,6 @@
 pub mod filling;
 pub mod measures;
 pub mod stages;
-pub mod view;
 
 pub mod record;
 pub mod run;

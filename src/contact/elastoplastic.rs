@@ -5,8 +5,9 @@ use super::inertia::Inertia;
 use super::loading::{Loading, SoftenedHertz};
 use super::spline::SplineLoading;
 use super::unloading::Unloading;
-use super::{NormalLaw, State};
+use super::{NormalLaw, Slowest, State};
 use crate::tape::keep_fields;
+use std::f64::consts::PI;
 
 /// Fitted law with its closed-form loading curve.
 pub type ClosedForm = Elastoplastic<SoftenedHertz>;
@@ -42,6 +43,7 @@ pub struct Elastoplastic<L> {
     unloading: Unloading,
     units: YieldUnits,
     valid_to: f64,
+    slowest: Option<Slowest>,
     inertia: Inertia,
 }
 
@@ -65,6 +67,9 @@ keep_fields!(Memory: flattening, force, residual, exponent);
 pub(super) const DEEPEST: f64 = 2.0;
 /// Recovered part $1 - \rho$ of the deepest branch, and residual part $\rho$, below which it is lost in rounding.
 const LEAST_PART: f64 = 1e-12;
+
+/// Accuracy to which the flattening of the slowest impact is found.
+const SLOWEST_ROUNDING: f64 = 1e-9;
 
 /// Rounding allowed when the bound of the loading exponent is compared with that of unloading.
 const EXPONENT_ROUNDING: f64 = 1e-9;
@@ -119,8 +124,32 @@ impl<L: Loading> Elastoplastic<L> {
             unloading,
             units,
             valid_to,
+            slowest: None,
             inertia: Inertia::NONE,
         })
+    }
+
+    /// The same law, which rests on impacts from `velocity` (m/s) on of a body of `density` (kg/m3).
+    #[must_use]
+    pub fn from_velocity(mut self, velocity: f64, density: f64) -> Self {
+        let energy = 2.0 / 3.0 * PI * density * velocity * velocity;
+        let reduced = energy / (self.units.force * self.units.flattening);
+        // work rises with the flattening; a body yields from 1 on
+        let (mut low, mut high) = (1.0, DEEPEST / self.units.flattening);
+        let gap = self.loading.work(low) < reduced && self.loading.work(high) > reduced;
+        while gap && high > low * (1.0 + SLOWEST_ROUNDING) {
+            let middle = (low * high).sqrt();
+            match self.loading.work(middle) < reduced {
+                true => low = middle,
+                false => high = middle,
+            }
+        }
+        self.slowest = gap.then(|| Slowest {
+            velocity,
+            flattening: low * self.units.flattening,
+            yields_at: self.units.flattening,
+        });
+        self
     }
 
     /// The same law with an inertia term of size `coefficient` on a body of `density` (kg/m3), from the departure on.
@@ -325,6 +354,10 @@ impl<L: Loading> NormalLaw for Elastoplastic<L> {
 
     fn valid_to(&self) -> f64 {
         self.valid_to
+    }
+
+    fn slowest(&self) -> Option<Slowest> {
+        self.slowest
     }
 
     fn inertia(&self) -> Inertia {

@@ -72,10 +72,93 @@ pub trait NormalLaw: Clone + Send + Sync + 'static {
     /// Largest flattening `x` the law's source supports; `f64::INFINITY` when it states none.
     fn valid_to(&self) -> f64;
 
+    /// Slowest impact the law was made from, where it is one in which the body yields; none where the source has no gap above
+    /// the elastic range.
+    fn slowest(&self) -> Option<Slowest> {
+        None
+    }
+
     /// What the law adds to [`NormalLaw::force`] on first loading because of the rate of approach. Everything else of
     /// this trait is the rate-independent core; a bed runs on the core alone.
     fn inertia(&self) -> Inertia {
         Inertia::NONE
+    }
+}
+
+/// Slowest impact that a law rests on: below it, down to the yield point, nobody has seen the law let go.
+///
+/// What decides is where a contact turns, not how fast it came: force and rebound follow from the largest flattening $x_m$, and
+/// in an impact on a rigid plane speed and $x_m$ belong together, $\int_0^{x_m} \varphi\ dx = \tfrac23 \pi \varrho V^2$ for every
+/// radius. Two equal grains that meet at 2V, a grain that two others press, and a slow squeeze all have their $x_m$. First loading
+/// up to the slowest $x_m$ is supported, for every faster impact passed through it; the ways back are not. Up to the yield point the
+/// body is elastic and Hertz's law is exact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Slowest {
+    /// Speed on a rigid plane, m/s.
+    pub velocity: f64,
+    /// Largest flattening $\delta/R$ of it under the law.
+    pub flattening: f64,
+    /// Flattening $\delta/R$ of first yield, less than that.
+    pub yields_at: f64,
+}
+
+/// What of a contact lies within the range of its law.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Coverage {
+    /// Whether it was flattened beyond what the law's source supports.
+    pub beyond: bool,
+    /// Work (J, counted as $\tfrac25 F \delta$ of each side, exact for Hertz) that has loaded it, where it has yielded and lets go.
+    pub unloading: f64,
+    /// The part of that which turned back short of the slowest impact of the law ([`Slowest`]).
+    pub below: f64,
+}
+
+impl Coverage {
+    /// Coverage over $R^3$ (Pa) of a body under `law` at flattening `x`, its history being up to date.
+    #[must_use]
+    pub fn of<L: NormalLaw>(law: &L, x: f64, history: &L::History) -> Self {
+        let most = law.largest(history);
+        let beyond = most.unwrap_or(x) > law.valid_to();
+        let (Some(slowest), Some(most)) = (law.slowest(), most) else {
+            return Self {
+                beyond,
+                ..Self::default()
+            };
+        };
+        let mut there = *history;
+        let unloading = match x < most && most > slowest.yields_at {
+            true => 0.4 * most * law.force(most, &mut there),
+            false => 0.0,
+        };
+        let below = match most < slowest.flattening {
+            true => unloading,
+            false => 0.0,
+        };
+        Self {
+            beyond,
+            unloading,
+            below,
+        }
+    }
+
+    /// The same of `count` sides, their reduced work times `volume` (m3).
+    #[must_use]
+    pub fn times(self, count: f64, volume: f64) -> Self {
+        Self {
+            beyond: self.beyond,
+            unloading: count * volume * self.unloading,
+            below: count * volume * self.below,
+        }
+    }
+
+    /// That of two sides of one contact.
+    #[must_use]
+    pub fn and(self, other: Self) -> Self {
+        Self {
+            beyond: self.beyond || other.beyond,
+            unloading: self.unloading + other.unloading,
+            below: self.below + other.below,
+        }
     }
 }
 

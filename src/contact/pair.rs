@@ -21,7 +21,7 @@
 //! | [`Alike`] | two grains of one material and any radii | $\delta_i = \delta/2$, $R' = 2 R_e$ |
 //! | [`Side`] twice | bodies of two materials | solved by [`balance`], each side with its own history |
 
-use super::NormalLaw;
+use super::{Coverage, NormalLaw};
 use crate::tape::Keep;
 use std::fmt::Debug;
 
@@ -56,8 +56,8 @@ pub trait Press: Clone + Send + Sync + 'static {
     /// Largest overlap (m) so far of bodies of `radii` (m), where the law remembers it.
     fn largest_overlap(&self, radii: [f64; 2], history: &Self::History) -> Option<f64>;
 
-    /// Largest flattening over radius the law's source supports.
-    fn valid_to(&self) -> f64;
+    /// What of the contact at `overlap` (m) lies within the range of its law, the history being up to date.
+    fn coverage(&self, overlap: f64, radii: [f64; 2], history: &Self::History) -> Coverage;
 }
 
 /// A grain on a rigid surface; all flattening is the grain's.
@@ -92,8 +92,8 @@ impl<L: NormalLaw> Press for Flat<L> {
         self.0.largest(history).map(|x| x * radii[0])
     }
 
-    fn valid_to(&self) -> f64 {
-        self.0.valid_to()
+    fn coverage(&self, overlap: f64, radii: [f64; 2], history: &L::History) -> Coverage {
+        Coverage::of(&self.0, overlap / radii[0], history).times(1.0, radii[0].powi(3))
     }
 }
 
@@ -143,8 +143,8 @@ impl<L: NormalLaw> Press for Twins<L> {
         self.0.largest(history).map(|x| 2.0 * x * radii[0])
     }
 
-    fn valid_to(&self) -> f64 {
-        self.0.valid_to()
+    fn coverage(&self, overlap: f64, radii: [f64; 2], history: &L::History) -> Coverage {
+        Coverage::of(&self.0, 0.5 * overlap / radii[0], history).times(2.0, radii[0].powi(3))
     }
 }
 
@@ -199,8 +199,9 @@ impl<L: NormalLaw> Press for Alike<L> {
         self.0.largest(history).map(|x| 2.0 * x * radius)
     }
 
-    fn valid_to(&self) -> f64 {
-        self.0.valid_to()
+    fn coverage(&self, overlap: f64, radii: [f64; 2], history: &L::History) -> Coverage {
+        let radius = radius_of_sides(radii);
+        Coverage::of(&self.0, 0.5 * overlap / radius, history).times(2.0, radius.powi(3))
     }
 }
 

@@ -14,7 +14,7 @@ use crate::contact::spline::{Knot, SplineLoading};
 use crate::contact::unloading::Unloading;
 use crate::document::Document;
 use crate::document::keys::{Kind, key, keys, names, table};
-use crate::material::Material;
+use crate::material::{Material, YIELD_PRESSURE_RATIO};
 use crate::theory::hertz::Hertz;
 use crate::{Error, Result};
 use serde::{Deserialize, Serialize};
@@ -305,9 +305,23 @@ impl LawFile {
 
     fn build(&self, form: Form) -> std::result::Result<FittedLaw, Refusal> {
         match form {
-            Form::Hertz => Ok(FittedLaw::Hertz(Hertz::of(&self.material()))),
+            Form::Hertz => Ok(FittedLaw::Hertz(self.hertz_law())),
             Form::ClosedForm => self.build_closed_form().map(FittedLaw::ClosedForm),
             Form::Spline => self.build_spline().map(FittedLaw::Spline),
+        }
+    }
+
+    /// Hertz's law: without limit where the material does not yield, else as far as it is known to be elastic.
+    fn hertz_law(&self) -> Hertz {
+        let material = self.material();
+        let law = Hertz::of(&material);
+        match material.yield_point(1.0, YIELD_PRESSURE_RATIO) {
+            None => law,
+            Some(point) => law.up_to(
+                self.valid
+                    .displacement_over_radius_max
+                    .max(point.displacement),
+            ),
         }
     }
 
@@ -373,7 +387,7 @@ impl LawFile {
         let valid_to = self.valid.displacement_over_radius_max;
         let law = Elastoplastic::new(loading, unloading, units, valid_to)?;
         guarantees::check(&law)?;
-        Ok(law)
+        Ok(law.from_velocity(self.valid.velocity_min_m_s, self.material.density_kg_m3))
     }
 }
 

@@ -7,7 +7,7 @@ mod write;
 pub use file::{Form, LawFile};
 
 use crate::contact::elastoplastic::{ClosedForm, Spline};
-use crate::contact::{LawVisitor, NormalLaw};
+use crate::contact::{LawVisitor, NormalLaw, Slowest};
 use crate::material::Material;
 use crate::theory::Theory;
 use crate::theory::hertz::Hertz;
@@ -83,6 +83,19 @@ impl AnyLaw {
             AnyLaw::Fitted(law) => Ok(law.visit(visitor)),
             AnyLaw::Theory(theory, material) => theory.visit(material, visitor),
         }
+    }
+
+    /// Slowest impact the law rests on, where it has one in which the body yields.
+    #[must_use]
+    pub fn slowest(&self) -> Option<Slowest> {
+        struct Ask;
+        impl LawVisitor for Ask {
+            type Output = Option<Slowest>;
+            fn visit<L: NormalLaw>(self, law: &L) -> Self::Output {
+                law.slowest()
+            }
+        }
+        self.visit(Ask).ok().flatten()
     }
 
     /// Law called `name`: `fitted` is that of `file`, any other name a theory of `material`.

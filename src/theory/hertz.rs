@@ -27,6 +27,8 @@ use crate::material::Material;
 pub struct Hertz {
     /// $\tfrac43 E^\ast$, Pa.
     prefactor: f64,
+    /// Largest flattening at which the body is known to be elastic.
+    valid_to: f64,
 }
 
 impl Hertz {
@@ -35,6 +37,16 @@ impl Hertz {
     pub fn new(contact_modulus: f64) -> Self {
         Self {
             prefactor: 4.0 / 3.0 * contact_modulus,
+            valid_to: f64::INFINITY,
+        }
+    }
+
+    /// The same law of a body that is known to be elastic up to a flattening `x` = delta/R.
+    #[must_use]
+    pub fn up_to(self, x: f64) -> Self {
+        Self {
+            valid_to: x,
+            ..self
         }
     }
 
@@ -123,6 +135,6 @@ impl NormalLaw for Hertz {
     }
 
     fn valid_to(&self) -> f64 {
-        f64::INFINITY
+        self.valid_to
     }
 }

@@ -4,11 +4,11 @@
 use crate::impacts;
 use crate::program::{impactlaw, message, program};
 use crate::runs::{Kept, assert_same, files};
-use impactlaw::bed::view::film::Film;
 use impactlaw::curve::Impact;
 use impactlaw::files::{Sum, sum_of, with_sum};
 use impactlaw::study::{KeptRun, group};
 use impactlaw::tape::unsealed;
+use impactlaw::view::film::Film;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use std::path::{Path, PathBuf};

@@ -9,7 +9,6 @@ use clap::Parser;
 use impactlaw::bed::filling::insert;
 use impactlaw::bed::scene::{Amount, Scene};
 use impactlaw::bed::stages::time_step;
-use impactlaw::bed::view::film::{Film, Frame};
 use impactlaw::case::Case;
 use impactlaw::cli::Cli;
 use impactlaw::contact::NormalLaw;
@@ -30,6 +29,7 @@ use impactlaw::plan::plans;
 use impactlaw::study::{KeptRun, Study, group};
 use impactlaw::tape::{Checkpoint, Keep, Keeper, TakenUp, Tape, VERSION, sealed};
 use impactlaw::unit::{self, DIMENSIONS, engineering};
+use impactlaw::view::film::{Film, Frame};
 use parry3d::math::Vector;
 use sha2::{Digest, Sha256};
 use std::collections::BTreeSet;
@@ -227,7 +227,7 @@ pub const READERS: &[Reader] = &[
     },
     Reader {
         name: "film",
-        sources: &["bed/view/film.rs"],
+        sources: &["view/film.rs"],
         kind: Kind::Binary,
         seeds: || vec![sealed(VERSION, |tape| frame().save(tape)).as_bytes()[HEAD..].to_vec()],
         read: film,

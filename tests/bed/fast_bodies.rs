@@ -48,6 +48,9 @@ block = { size = ["2 mm", "100 mm", "100 mm"] }
 at = ["0 mm", "0 mm", "0 mm"]
 "#;
 
+/// Across gravity: where that leads is found as the run goes.
+const THROWN: &str = ", velocity = [\"0.01 m/s\", \"0 m/s\", \"0 m/s\"]";
+
 fn stage(duration: &str) -> String {
     format!(
         "[[stage]]\nkind = \"run\"\nduration = \"{duration}\"\n[output]\nrows = 20\nframes = 0\nfilm = 0\n"
@@ -159,14 +162,19 @@ fn a_free_body_that_comes_to_another_body_stops_the_run_by_name() {
     };
     let fall = format!(
         "{HEAD}{LAYER}{}{}",
-        ball("ball", "20 mm", ""),
+        ball("ball", "20 mm", THROWN),
         stage("0.3 s")
     );
     let says = error(&fall);
     assert!(says.contains("\"ball\" has come to \"floor\""), "{says}");
     // two free bodies, one overtaking the other
     let fast = ", velocity = [\"0 m/s\", \"0 m/s\", \"-1 m/s\"]";
-    let two = [ball("lower", "20 mm", ""), ball("upper", "32 mm", fast)].concat();
+    let fast = fast.replace("\"0 m/s\", \"0 m/s\"", "\"0.01 m/s\", \"0 m/s\"");
+    let two = [
+        ball("lower", "20 mm", THROWN),
+        ball("upper", "32 mm", &fast),
+    ]
+    .concat();
     let says = error(&format!("{HEAD}{LAYER}{two}{}", stage("0.3 s")));
     assert!(
         says.contains("has come to \"upper\"") || says.contains("has come to \"lower\""),
@@ -177,6 +185,70 @@ fn a_free_body_that_comes_to_another_body_stops_the_run_by_name() {
     let still = fall.replace("9.81 m/s2", "0 m/s2");
     let says = error(&still.replace("[[stage]]", &format!("{plate}[[stage]]")));
     assert!(says.contains("\"ball\" has come to \"plate\""), "{says}");
+}
+
+#[test]
+fn a_free_body_that_falls_straight_to_another_is_refused_unless_a_grain_may_be_in_its_way() {
+    let scene = |at: &str, duration: &str, more: &str| {
+        let ball = format!(
+            "[[body]]\nname = \"ball\"\nball = {{ radius = \"1.5 mm\" }}\nat = {at}\nfree = {{ density = \"7800 kg/m3\"{more} }}\n"
+        );
+        let flat = LAYER.replace("20 mm\", \"4 mm\"]", "20 mm\", \"2.5 mm\"]");
+        format!("{HEAD}{flat}{ball}{}", stage(duration))
+    };
+    // grains stand in the corner at the origin, one layer of them
+    let aside = "[\"17 mm\", \"17 mm\", \"6.4049 mm\"]";
+    let says = error(&scene(aside, "0.3 s", ""));
+    // 4.9049 mm down: sqrt(2 s/g) = 31.6 ms
+    for say in [
+        "body[0].free",
+        "must not come to \"floor\"",
+        "31.6 ms",
+        "no grain in its way",
+    ] {
+        assert!(says.contains(say), "{say:?} is not in: {says}");
+    }
+    // too short a time, held, no gravity's way, grains below
+    for (at, duration, more) in [
+        (aside, "31 ms", ""),
+        (aside, "32 ms", ", held = true"),
+        ("[\"3 mm\", \"3 mm\", \"7 mm\"]", "32 ms", ""),
+    ] {
+        if let Err(error) = run(&scene(at, duration, more)) {
+            panic!("{at} {duration} {more}: {error}");
+        }
+    }
+    // sent off without gravity, to a wall: 1.5 mm at 0.1 m/s
+    let sent = ", velocity = [\"0.1 m/s\", \"0 m/s\", \"0 m/s\"]";
+    let says = error(&scene(aside, "20 ms", sent).replace("9.81 m/s2", "0 m/s2"));
+    for say in ["must not come to \"right\"", "15 ms"] {
+        assert!(says.contains(say), "{say:?} is not in: {says}");
+    }
+}
+
+#[test]
+fn what_moves_too_far_in_a_step_is_named() {
+    let speed = Vector::new(1e3, 0.0, 0.0);
+    let mut grains = Grains::default();
+    for (x, velocity) in [(0.0, Vector::ZERO), (1.0, speed)] {
+        grains.add(Vector::new(x, 0.0, 0.0), RADIUS, MATERIAL.density);
+        grains.motions.last_mut().unwrap().velocity = velocity;
+    }
+    let law = Hertz::of(&MATERIAL);
+    let mut bed = bed(smooth(), Alike(law), Flat(law), grains, empty(), 1e-6);
+    let mut moved = || {
+        bed.evaluate()?;
+        bed.advance()?;
+        bed.evaluate()
+    };
+    let says = moved().unwrap_err().to_string();
+    for say in [
+        "grain 1 at (1001.0000, 0.0000, 0.0000) mm",
+        "1000.000 m/s fast",
+        "in one step",
+    ] {
+        assert!(says.contains(say), "{say:?} is not in: {says}");
+    }
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Beds of grains: contacts, bodies and periodic sides, scenes from their files to their pages, and refusals.
 
 mod adapter;
+mod beds_from_files;
 mod belts;
 mod bodies;
 #[path = "../support/browser.rs"]
@@ -10,15 +11,20 @@ mod fast_bodies;
 mod files;
 mod fine_grain;
 mod grain_files;
+mod grain_files_refused;
+#[path = "../support/grain_lists.rs"]
+mod grain_lists;
 mod insertion;
 mod kinds_shown;
 mod many;
 #[path = "../support/maw_barber_fawcett.rs"]
 mod maw_barber_fawcett;
-mod mesh_files;
+#[path = "../support/mesh_lists.rs"]
+mod mesh_lists;
 mod meshes;
 mod mixture;
 mod naming;
+mod obj_files;
 mod oblique;
 mod oblique_elastic;
 mod oblique_published;
@@ -27,6 +33,7 @@ mod page;
 mod periodic;
 #[path = "../support/program.rs"]
 mod program;
+mod range;
 mod refusals;
 mod removal;
 mod restart;
@@ -37,5 +44,7 @@ mod scene_run;
 mod scenes;
 mod seams;
 mod shear_cell;
+mod stl_ascii;
+mod stl_binary;
 mod turning;
 mod two_bodies;

@@ -303,6 +303,45 @@ fn sides_pairs_domains_bodies_outlets_and_measures_are_refused_by_name_instead_o
 }
 
 #[test]
+fn grains_of_two_materials_are_refused_for_that_whatever_pairs_the_scene_names() {
+    let text = std::fs::read_to_string(scene(tempfile::tempdir().unwrap().path())).unwrap();
+    let law = "law = \"hertz\"\ndensity = \"2500 kg/m3\"\nyoung_modulus = \"70 GPa\"\npoisson_ratio = 0.2\n";
+    let pair = "\n[[pair]]\nbetween = [\"own\", \"glass\"]\nfriction = 0.1\n";
+    let start = text.find("[material]").unwrap();
+    let (head, rest) = text.split_at(start);
+    let (own, rest) = rest.split_at(rest.find("[grains]").unwrap());
+    let own = own.replace("[material]", "[materials.own]");
+    let (grains, rest) = rest.split_at(1 + rest[1..].find("\n[").unwrap());
+    let group = |name: &str, material: &str| {
+        grains.replace(
+            "[grains]",
+            &format!("[[grains]]\nname = \"{name}\"\nmaterial = \"{material}\""),
+        )
+    };
+    let (one, two) = (group("one", "own"), group("two", "glass"));
+    let text = format!("{head}{own}\n[materials.glass]\n{law}\n{one}\n{two}\n{pair}\n{rest}");
+    let text = text
+        .replace("laws = [\"fitted\", \"hertz\"]\n", "")
+        .replace("laws = [\"fitted\"]\n", "");
+    let scratch = tempfile::tempdir().unwrap();
+    let file = scratch.path().join("scene.toml");
+    std::fs::write(&file, text).unwrap();
+    let mut command = program(scratch.path());
+    let output = command
+        .args(["bed", "export"])
+        .arg(&file)
+        .args(["--to", "lammps"])
+        .output()
+        .unwrap();
+    let said = message(&output);
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(
+        said.contains("`grains[1].material`") && said.contains("one law"),
+        "{said}"
+    );
+}
+
+#[test]
 fn a_code_that_is_not_known_is_refused_with_those_that_are() {
     let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/bed-oedometer.toml");
     let scratch = tempfile::tempdir().unwrap();

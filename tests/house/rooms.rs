@@ -24,7 +24,7 @@ const ROOMS: Order = &[
     &["law"],
     &["compare", "cost"],
     &["dem"],
-    &["listing"],
+    &["listing", "view"],
     &["bed"],
     &["export"],
     &["report", "prelude"],
@@ -59,7 +59,6 @@ const WINGS: &[(&str, Order)] = &[
         &[
             &["scene"],
             &["filling", "measures"],
-            &["view"],
             &["record", "stages"],
             &["run"],
         ],

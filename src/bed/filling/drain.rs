@@ -56,6 +56,13 @@ impl Drain {
         gone
     }
 
+    /// Least thickness (m) of an outlet that a grain could fly through between two looks; infinite without one.
+    #[must_use]
+    pub fn thinnest(&self) -> f64 {
+        let thickness = self.outlets.iter().map(|outlet| outlet.mouth.thickness());
+        thickness.fold(f64::INFINITY, f64::min)
+    }
+
     /// What has left through all outlets.
     #[must_use]
     pub fn total(&self) -> Outflow {

@@ -3,6 +3,7 @@
 
 mod check;
 pub mod drain;
+pub mod falls;
 pub mod feed;
 pub mod lattice;
 mod memory;

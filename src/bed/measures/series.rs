@@ -44,6 +44,8 @@ pub struct Row {
     pub max_overlap_ratio: f64,
     /// Contacts flattened beyond what the law's source supports.
     pub beyond_validity: usize,
+    /// Contacts that have yielded and let go short of the slowest impact of the law.
+    pub below_validity: usize,
     /// Fastest grain.
     pub max_speed_m_s: f64,
     /// Inertial number: strain rate times diameter times root of density over stress; 0 without a stress.
@@ -211,6 +213,7 @@ impl View<'_> {
             solid_fraction: per(self.grain_volume, volume),
             max_overlap_ratio: packing.max_overlap_ratio,
             beyond_validity: packing.beyond_validity,
+            below_validity: packing.below_validity,
             max_speed_m_s: packing.max_speed,
             inertial_number: if stress > 0.0 {
                 rate * self.diameter * (self.material.density / stress).sqrt()

@@ -14,13 +14,14 @@ use self::paraview::Frames;
 use crate::bed::measures::fabric::{Fabric, FabricRow};
 use crate::bed::measures::series::Row;
 use crate::bed::scene::OutputTable;
-use crate::bed::view::film::{Film, Frame};
-use crate::bed::view::page::{Names, shows_most, write_page};
-use crate::bed::view::picture::write_animation;
 use crate::dem::dynamics::any::AnyBed;
 use crate::dem::dynamics::contact::ContactRow;
 use crate::files::{write_atomic, write_rows};
 use crate::tape::keep_fields;
+use crate::view::film::{Film, Frame};
+use crate::view::kinds::Names;
+use crate::view::page::{Words, shows_most, write_page};
+use crate::view::picture::write_animation;
 use crate::{Error, Result};
 use std::path::{Path, PathBuf};
 
@@ -128,7 +129,13 @@ impl Record {
     ///
     /// # Errors
     /// [`Error::File`] when a file cannot be read or written.
-    pub fn finish(&self, bed: &dyn AnyBed, title: &str, summary: &str) -> Result<()> {
+    pub fn finish(
+        &self,
+        bed: &dyn AnyBed,
+        title: &str,
+        summary: &str,
+        warnings: &[String],
+    ) -> Result<()> {
         let path = |name: &str| self.folder.join(name);
         write_rows(&path("stress.csv"), &self.provenance, &self.stress)?;
         write_rows(&path("bodies.csv"), &self.provenance, &self.bodies)?;
@@ -142,10 +149,15 @@ impl Record {
         }
         if !self.film.is_empty() {
             let film = (&self.film, &self.names);
-            write_page(&path("bed.html"), title, summary, film, bed)?;
+            let words = Words {
+                title,
+                summary,
+                warnings,
+            };
+            write_page(&path("bed.html"), words, film, bed)?;
             if self.settings.animation > 0 {
                 let most = self.settings.animation;
-                write_animation(&path("animation.png"), title, &self.film, bed, most)?;
+                write_animation(&path("animation.png"), title, film, bed, most)?;
             }
         }
         Ok(())

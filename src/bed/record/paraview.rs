@@ -2,11 +2,11 @@
 
 use super::vtp::{Column, PolyData, collection};
 use crate::Result;
-use crate::bed::view::outline::Outline;
 use crate::dem::dynamics::any::AnyBed;
 use crate::dem::dynamics::contact::{ContactRow, Other};
 use crate::files::write_atomic;
 use crate::tape::keep_fields;
+use crate::view::outline::Outline;
 use std::path::{Path, PathBuf};
 
 /// Names of the three series.

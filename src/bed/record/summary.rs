@@ -36,6 +36,10 @@ pub struct Summary {
     pub max_overlap_ratio: f64,
     /// Largest number of contacts flattened beyond what the law's source supports.
     pub beyond_validity: usize,
+    /// Largest number of contacts that had yielded and let go short of the slowest impact of the law.
+    pub below_validity: usize,
+    /// Share of the work of all yielded contacts that let go which is in those.
+    pub below_validity_share: f64,
     /// Largest stress on the piston.
     #[serde(rename = "max_stress_Pa")]
     pub max_stress_pa: f64,
@@ -82,6 +86,10 @@ pub struct Counts {
     pub outlet_grains: usize,
     /// Contacts beyond the law's validity.
     pub beyond_validity: usize,
+    /// Contacts that let go below it.
+    pub below_validity: usize,
+    /// Their share of the work.
+    pub below_validity_share: f64,
     /// Largest overlap over diameter.
     pub max_overlap_ratio: f64,
     /// Contact stiffness over that of the material, as the scene asks for.
@@ -114,6 +122,8 @@ impl Summary {
             outlet_grains: counts.outlet_grains,
             max_overlap_ratio: counts.max_overlap_ratio,
             beyond_validity: counts.beyond_validity,
+            below_validity: counts.below_validity,
+            below_validity_share: counts.below_validity_share,
             max_stress_pa: peak.map_or(0.0, |r| r.stress_pa),
             residual_strain: last.map_or(0.0, |r| r.strain),
             coordination: deepest.map_or(0.0, |r| r.coordination),

@@ -2,24 +2,24 @@
 
 pub mod assembly;
 pub mod packing;
+mod warnings;
 mod watch;
 
 use self::assembly::{Recipe, Start, assemble, elastic, laws};
+use self::warnings::warnings;
 use self::watch::Watch;
 use crate::bed::filling::drain::Drain;
+use crate::bed::filling::falls::check_falls;
 use crate::bed::filling::{check_bodies, insert};
 use crate::bed::measures::gauge::finding;
 use crate::bed::measures::oedometer;
-use crate::bed::measures::series::{self, CLOSURE, HOPELESS, Row};
+use crate::bed::measures::series::{self, Row};
 use crate::bed::record::Record;
 use crate::bed::record::oedometer as side_by_side;
 use crate::bed::record::summary::{Counts, Summary};
 use crate::bed::scene::{Scene, Stage};
 use crate::bed::stages::time_step;
 use crate::bed::stages::{Done, Run, Terms};
-use crate::bed::view::film::Frame;
-use crate::bed::view::picture::write_picture;
-use crate::bed::view::portrait::{Cast, Portrait};
 use crate::dem::bodies::enclosure::Room;
 use crate::dem::bodies::machine::Machine;
 use crate::dem::dynamics::Parts;
@@ -29,13 +29,14 @@ use crate::dem::grains::Grains;
 use crate::law::{AnyLaw, LawFile};
 use crate::tape::{Checkpoint, Keeper, TakenUp, VERSION};
 use crate::theory::Theory;
-use crate::unit::engineering;
+use crate::view::film::Frame;
+use crate::view::kinds::Names;
+use crate::view::picture::write_picture;
+use crate::view::portrait::{Cast, Portrait};
 use crate::{Error, Result};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// Overlap over diameter above which a warning is given: contacts of one grain are then no longer apart.
-const DEEP: f64 = 0.05;
 /// Distance up to which neighbours are listed, over the largest radius: the best of a scan between lists that are
 /// short and lists that last.
 const SKIN: f64 = 0.15;
@@ -92,8 +93,8 @@ pub struct BedReport {
 /// another material, and [`crate::Error::Value`] when grains or bodies have no room or the time step is too large;
 /// then [`crate::Error::Bed`] when a bed cannot go on and [`crate::Error::File`] when a file cannot be written.
 pub fn run_scene(scene: &Scene, given: Option<&LawFile>, options: &Options) -> Result<BedReport> {
-    let names = scene.laws.iter();
-    let laws: Vec<Vec<AnyLaw>> = names
+    let listed = scene.laws.iter();
+    let laws: Vec<Vec<AnyLaw>> = listed
         .map(|name| laws(&scene.materials, |index| scene.uses(index), name, given))
         .collect::<Result<_>>()?;
     let mut start = begin(scene, options)?;
@@ -120,7 +121,7 @@ pub fn run_scene(scene: &Scene, given: Option<&LawFile>, options: &Options) -> R
         .iter()
         .map(|run| (run.law.as_str(), &run.portrait))
         .collect();
-    write_picture(&picture, &portraits)?;
+    write_picture(&picture, &portraits, &names(scene))?;
     // all is written: what an interrupted call would have gone on from is not needed any more
     for run in packing.iter().chain(&runs) {
         // the checkpoint first: what goes on from it needs its frames
@@ -152,6 +153,7 @@ pub(in crate::bed) fn begin(scene: &Scene, options: &Options) -> Result<Start> {
         );
         return Err(scene.document.reject(&key, allowed));
     }
+    check_falls(scene, &feed, &grains, &machine)?;
     Ok(Start {
         grains,
         bodies: None,
@@ -224,7 +226,14 @@ pub(in crate::bed) fn pack(scene: &Scene, start: &mut Start, options: &Options) 
     start.feed = run.feed.clone();
     start.feed.restart_clock(start.time);
     let done = run.done();
-    finish("packing", scene, done, watch, began, options)
+    finish(
+        "packing",
+        scene,
+        (done, &recipe.laws),
+        watch,
+        began,
+        options,
+    )
 }
 
 /// Runs the stages after the packing under one law.
@@ -239,7 +248,7 @@ fn under_law(
     let steps = time_step::steps_under(scene, &laws)?;
     let recipe = Recipe {
         pairs: &scene.pairs,
-        ..recipe(scene, laws, &scene.contact)
+        ..recipe(scene, laws.clone(), &scene.contact)
     };
     let plan = format!("{} {:?} {name} {:?}", scene.hash, options.seed, recipe.laws);
     let bed = assemble(&recipe, parts(scene, start)?)?;
@@ -251,7 +260,7 @@ fn under_law(
     let stages: Vec<&Stage> = scene.stages.iter().filter(|s| !s.prepares()).collect();
     go(&mut run, &stages, &plan, checkpoint.as_ref())?;
     let done = run.done();
-    finish(name, scene, done, watch, began, options)
+    finish(name, scene, (done, &laws), watch, began, options)
 }
 
 /// Takes up what was kept of a run, and runs its stages to their end.
@@ -296,7 +305,7 @@ fn checkpoint(name: &str, options: &Options) -> Option<Checkpoint> {
 fn finish(
     name: &str,
     scene: &Scene,
-    run: Done,
+    (run, laws): (Done, &[AnyLaw]),
     watch: Watch,
     began: Instant,
     options: &Options,
@@ -319,6 +328,8 @@ fn finish(
         lost_bodies: run.tally.lost_bodies,
         outlet_grains: run.drain.total().grains,
         beyond_validity: run.tally.beyond_validity,
+        below_validity: run.tally.below_validity,
+        below_validity_share: run.tally.below_share(),
         max_overlap_ratio: run.tally.max_overlap_ratio,
         contact_stiffness: softening,
         settling_stiffness,
@@ -342,14 +353,16 @@ fn finish(
     summary
         .findings
         .extend(oedometer::findings(rows, material, yields));
-    summary.materials = scene.materials.iter().map(|m| m.name.clone()).collect();
-    summary.groups = scene.groups.iter().map(|g| g.name.clone()).collect();
-    summary.warnings = warnings(&run);
+    let names = names(scene);
+    (summary.materials, summary.groups) = (names.materials, names.groups);
+    summary.warnings = warnings(&run, laws);
     let folder = folder(options, name);
     series::write(&folder.join("bed.csv"), options.provenance, &run.rows)?;
     let title = format!("{}: {name}", scene.name);
     let told = format!("{} grains, {} steps", summary.grains, summary.steps);
-    watch.record.finish(run.bed.as_ref(), &title, &told)?;
+    watch
+        .record
+        .finish(run.bed.as_ref(), &title, &told, &summary.warnings)?;
     summary.write(&folder)?;
     let cast = Cast::of(run.bed.as_ref());
     let shown = match watch.deepest {
@@ -367,54 +380,12 @@ fn finish(
     })
 }
 
-/// What a user must know before the figures are used.
-fn warnings(run: &Done) -> Vec<String> {
-    let (tally, mut warnings) = (&run.tally, Vec::new());
-    if tally.lost > 0 {
-        warnings.push(format!(
-            "{} grains were outside the room; they are still listed in the files",
-            tally.lost
-        ));
+/// Names that the grains of a scene are told apart by.
+fn names(scene: &Scene) -> Names {
+    Names {
+        materials: scene.materials.iter().map(|m| m.name.clone()).collect(),
+        groups: scene.groups.iter().map(|g| g.name.clone()).collect(),
     }
-    if tally.lost_bodies > 0 {
-        warnings.push(format!(
-            "{} free bodies were outside the room",
-            tally.lost_bodies
-        ));
-    }
-    if tally.beyond_validity > 0 {
-        warnings.push(format!(
-            "{} contacts at once were flattened beyond the range of the law: it was extrapolated",
-            tally.beyond_validity
-        ));
-    }
-    if tally.max_overlap_ratio > DEEP {
-        warnings.push(format!(
-            "grains overlapped by up to {:.1} % of a diameter: contacts influence each other there",
-            100.0 * tally.max_overlap_ratio
-        ));
-    }
-    let closure = series::closure(&run.rows);
-    if !(closure < CLOSURE) {
-        let stopped = series::first_beyond(&run.rows, HOPELESS);
-        let first = stopped.or_else(|| series::first_beyond(&run.rows, CLOSURE));
-        let place = first.map_or(String::new(), |row| {
-            let time = engineering(row.time_s, "s", 3);
-            let what = match stopped {
-                Some(_) => "the run was stopped",
-                None => "that much first",
-            };
-            format!(" ({what} at {time}, in \"{}\")", row.stage)
-        });
-        warnings.push(format!(
-            "the energy account is off by {:.1} % of the turnover{place}, {:.0} % at most: the run has failed; take more steps a contact \
-             (`time.steps_per_contact`, `time.rayleigh_fraction`)",
-            100.0 * closure,
-            100.0 * CLOSURE
-        ));
-    }
-    warnings.extend(run.feed.missing(run.bed.machine()));
-    warnings
 }
 
 fn folder(options: &Options, name: &str) -> PathBuf {

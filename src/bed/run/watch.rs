@@ -6,10 +6,9 @@ use crate::bed::measures::series::Row;
 use crate::bed::record::Record;
 use crate::bed::scene::{Scene, Stage};
 use crate::bed::stages::Observer;
-use crate::bed::view::film::Frame;
-use crate::bed::view::page::Names;
 use crate::dem::dynamics::any::AnyBed;
 use crate::tape::keep_fields;
+use crate::view::film::Frame;
 use std::path::Path;
 
 /// Passes rows on to the files and to the progress shown, and keeps what the picture shows.
@@ -27,13 +26,14 @@ impl<'a> Watch<'a> {
     /// Watch on the run called `name`, whose files go into `folder`.
     #[must_use]
     pub fn new(name: &str, folder: &Path, scene: &Scene, options: &Options<'a>) -> Self {
-        let names = Names {
-            materials: scene.materials.iter().map(|m| m.name.clone()).collect(),
-            groups: scene.groups.iter().map(|g| g.name.clone()).collect(),
-        };
         Self {
             name: name.to_owned(),
-            record: Record::new(folder, options.provenance, scene.output, names),
+            record: Record::new(
+                folder,
+                options.provenance,
+                scene.output,
+                super::names(scene),
+            ),
             deepest: None,
             progress: options.progress,
         }

@@ -11,8 +11,8 @@ use crate::unit::{Length, Quantity};
 use parry3d::math::Vector;
 use serde::Deserialize;
 
-/// Thickness of a region over the smallest radius that no grain can fly through between two looks: a grain moves at most a tenth
-/// of that radius in a step, and outlets are looked at every 50 steps or more often.
+/// Least thickness of a region over the smallest radius. A grain moves at most about a tenth of that radius in a step; fast ones are
+/// looked at every five steps, so that none flies through unseen.
 const THICKNESS: f64 = 5.0;
 
 /// Where grains leave.
@@ -45,6 +45,18 @@ impl Mouth {
         match self {
             Mouth::Region(region) => region.holds(centre, 0.0),
             Mouth::Beyond { point, normal } => (centre - *point).dot(*normal) > 0.0,
+        }
+    }
+
+    /// How far (m) a grain flies at least within it, straight through; infinite beyond a plane, which no grain leaves again.
+    #[must_use]
+    pub fn thickness(&self) -> f64 {
+        match self {
+            Mouth::Region(region) => {
+                let [low, high] = region.corners();
+                (high - low).min_element()
+            }
+            Mouth::Beyond { .. } => f64::INFINITY,
         }
     }
 
@@ -144,9 +156,8 @@ impl OutletTable {
         match (&self.region, &self.plane) {
             (Some(region), None) => {
                 let region = region.check(at.document, &at.name("region"))?;
-                let [low, high] = region.corners();
                 let least = THICKNESS * around.smallest;
-                if (high - low).min_element() < least {
+                if Mouth::Region(region).thickness() < least {
                     let allowed = format!(
                         "must be at least {:.3e} m thick, {THICKNESS} of the smallest radius: a fast grain could fly through it between two looks; or use a `plane`",
                         least

@@ -90,10 +90,15 @@ pub struct Tally {
     pub max_overlap_ratio: f64,
     /// Largest number of contacts seen beyond the validity of the law.
     pub beyond_validity: usize,
+    /// Largest number of contacts seen that let go below it.
+    pub below_validity: usize,
+    /// Work that has loaded contacts which let go, and its part in those below, summed over the checks, J.
+    pub unloading: [f64; 2],
     /// Steps of single grains.
     pub particle_steps: u64,
 }
-keep_fields!(Tally: lost, lost_bodies, max_overlap_ratio, beyond_validity, particle_steps);
+keep_fields!(Tally: lost, lost_bodies, max_overlap_ratio, beyond_validity, below_validity, unloading,
+    particle_steps);
 
 /// Where a run is within its stage: all that going on needs beside the bed.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -165,6 +170,15 @@ pub struct Done {
     pub gauges: Box<[Gauge]>,
     /// Seconds the run took before it was resumed.
     pub seconds_before: f64,
+}
+
+impl Tally {
+    /// Share of the work of yielded contacts that let go which is in those below the range of the law.
+    #[must_use]
+    pub fn below_share(&self) -> f64 {
+        let [all, below] = self.unloading;
+        if all > 0.0 { below / all } else { 0.0 }
+    }
 }
 
 impl<'a> Run<'a> {
@@ -310,13 +324,15 @@ impl<'a> Run<'a> {
         }
         self.let_out()?;
         let packing = self.bed.packing();
-        self.place.next_check = self.step() + self.until_next_check(&packing);
         self.set_dt(&packing)?;
+        self.place.next_check = self.step() + self.until_next_check(&packing);
         let outside = self.outside();
         let bodies_outside = self.bodies_outside().count();
         let tally = &mut self.tally;
         tally.max_overlap_ratio = tally.max_overlap_ratio.max(packing.max_overlap_ratio);
         tally.beyond_validity = tally.beyond_validity.max(packing.beyond_validity);
+        tally.below_validity = tally.below_validity.max(packing.below_validity);
+        (0..2).for_each(|part| tally.unloading[part] += packing.unloading[part]);
         tally.lost = tally.lost.max(outside);
         tally.lost_bodies = tally.lost_bodies.max(bodies_outside);
         if packing.max_overlap_ratio > TOO_DEEP {
@@ -339,10 +355,13 @@ impl<'a> Run<'a> {
         Ok(Some(packing))
     }
 
-    /// Steps to the next check: fewer where an impact may be too deep, so that none is over unseen.
+    /// Steps to the next check: fewer where an impact may be too deep, so that none is over unseen, and where a grain may fly
+    /// through an outlet, even one that is struck and then twice as fast.
     fn until_next_check(&self, packing: &Packing) -> u64 {
         let speed = packing.max_speed + self.bed.machine().fastest();
-        match self.terms.limits.flattening(self.softening, speed) > TOO_DEEP {
+        let way = 2.0 * speed * self.bed.clock().0 * CHECK_EVERY as f64;
+        let deep = self.terms.limits.flattening(self.softening, speed) > TOO_DEEP;
+        match deep || way > self.drain.thinnest() {
             true => CHECK_DEEP,
             false => CHECK_EVERY,
         }

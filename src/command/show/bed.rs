@@ -77,6 +77,10 @@ fn facts(scene: &Scene, report: &BedReport) -> Vec<(String, String)> {
             .map(|run| format!("bed/{}/bed.html", run.law));
         facts.push(("In three dimensions", pages.collect::<Vec<_>>().join(", ")));
     }
+    for run in &report.laws {
+        let warnings = run.summary.warnings.iter();
+        facts.extend(warnings.map(|warning| ("Warning", format!("{}: {warning}", run.law))));
+    }
     let owned = |(name, value): (&str, String)| (name.to_owned(), value);
     facts.into_iter().map(owned).collect()
 }

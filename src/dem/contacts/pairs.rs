@@ -2,6 +2,7 @@
 //!
 //! No two tasks write one place and every sum has one order, so a run is bitwise the same for any number of threads.
 
+use crate::contact::Coverage;
 use crate::contact::pair::Pressed;
 use crate::dem::force::effects::ContactLaw;
 use crate::dem::force::losses::Losses;
@@ -413,10 +414,10 @@ impl<C: ContactLaw> Contacts<C> {
         self.histories[index / CHUNK].largest_overlap(index % CHUNK, radii)
     }
 
-    /// Largest flattening over radius the normal law's source supports.
+    /// What of a pair lies within the range of its law.
     #[must_use]
-    pub fn valid_to(&self) -> f64 {
-        self.model.valid_to()
+    pub fn coverage(&self, index: usize, squeeze: Squeeze) -> Coverage {
+        self.histories[index / CHUNK].coverage(index % CHUNK, squeeze)
     }
 
     /// Whether both hold the same pairs, pushes and histories, bit for bit.

@@ -1,5 +1,6 @@
 //! Patch: one contact of a grain with a surface.
 
+use crate::contact::Coverage;
 use crate::dem::force::meeting::Push;
 use crate::dem::force::normal::{Histories, Squeeze};
 use crate::dem::grains::Grains;
@@ -77,5 +78,13 @@ impl<M> Held<'_, M> {
         self.history
             .0
             .stiffest(self.history.1, self.squeeze(grains))
+    }
+
+    /// What of it lies within the range of its law.
+    #[must_use]
+    pub fn coverage(&self, grains: &Grains) -> Coverage {
+        self.history
+            .0
+            .coverage(self.history.1, self.squeeze(grains))
     }
 }

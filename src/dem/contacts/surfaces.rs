@@ -33,12 +33,6 @@ impl<C: ContactLaw> Surfaces<C> {
         }
     }
 
-    /// Largest flattening over radius the normal law's source supports.
-    #[must_use]
-    pub fn valid_to(&self) -> f64 {
-        self.model.valid_to()
-    }
-
     /// Whether both hold the same patches and histories, bit for bit.
     #[must_use]
     pub fn same(&self, other: &Self) -> bool {

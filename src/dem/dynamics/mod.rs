@@ -222,9 +222,12 @@ impl<C: ContactLaw> Bed<C> {
         let bodies = self.machine.moved_since(&self.listed.poses);
         if !self.listed.due {
             // lists are made anew once half the skin is used up, so that what is beyond it came in one step
-            let steps = [("a grain", moved, 0.5), ("a body", bodies, 1.0)];
-            for (what, way, part) in steps {
+            for (of_grains, way, part) in [(true, moved, 0.5), (false, bodies, 1.0)] {
                 if way > part * self.skin + self.listed.smallest {
+                    let what = match of_grains {
+                        true => self.furthest_grain(),
+                        false => self.furthest_body(),
+                    };
                     return Err(Error::Bed {
                         step: self.step,
                         reason: format!(
@@ -235,6 +238,32 @@ impl<C: ContactLaw> Bed<C> {
             }
         }
         Ok(self.listed.due || 2.0 * moved > self.skin || moved + bodies > self.skin)
+    }
+
+    /// The grain that has moved furthest since the last listing, in words.
+    fn furthest_grain(&self) -> String {
+        let ways = self.grains.spheres.iter().zip(&self.listed.centres);
+        let ways = ways.map(|(sphere, before)| sphere.centre.distance(*before));
+        let furthest = ways.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
+        furthest.map_or("a grain".to_owned(), |(grain, _)| {
+            let at = self.grains.spheres[grain].centre * 1e3;
+            let speed = self.grains.motions[grain].velocity.length();
+            format!(
+                "grain {} at ({:.4}, {:.4}, {:.4}) mm, {speed:.3} m/s fast,",
+                self.grains.ids[grain], at.x, at.y, at.z
+            )
+        })
+    }
+
+    /// The body that has, by name.
+    fn furthest_body(&self) -> String {
+        let bodies = self.machine.bodies().iter().enumerate();
+        let ways =
+            bodies.map(|(index, body)| (body, self.machine.way_since(&self.listed.poses, index)));
+        let furthest = ways.max_by(|a, b| a.1.total_cmp(&b.1));
+        furthest.map_or("a body".to_owned(), |(body, _)| {
+            format!("the body \"{}\"", body.name)
+        })
     }
 
     fn broken(&self, what: &str) -> Error {

@@ -1,5 +1,6 @@
 //! Measures of a bed at one instant: energies, packing, stress.
 
+use crate::contact::Coverage;
 use crate::dem::contacts::family::flowed;
 use crate::dem::contacts::surfaces::Held;
 use crate::dem::dynamics::Bed;
@@ -63,8 +64,12 @@ pub struct Packing {
     pub coordination: f64,
     /// Largest overlap over the diameter of the smaller grain; on a surface, over the radius.
     pub max_overlap_ratio: f64,
-    /// Contacts flattened beyond what the law's source supports.
+    /// Contacts that were flattened beyond what the law's source supports.
     pub beyond_validity: usize,
+    /// Contacts that have yielded and let go short of the slowest impact of the law ([`crate::contact::Slowest`]).
+    pub below_validity: usize,
+    /// Work that has loaded the contacts which have yielded and let go, and the part of it in those below, J.
+    pub unloading: [f64; 2],
     /// Least time a half oscillation of a grain on its stiffest contact would take, s; infinite without contacts.
     pub contact_time: f64,
     /// Height of the highest point of a grain, m.
@@ -77,6 +82,16 @@ pub struct Packing {
     pub virial: Matrix3<f64>,
     /// Mean normal force of the grain contacts that carry force, N.
     pub mean_force: f64,
+}
+
+impl Packing {
+    /// Counts a contact by what its law covers.
+    fn cover(&mut self, coverage: &Coverage) {
+        self.beyond_validity += usize::from(coverage.beyond);
+        self.below_validity += usize::from(coverage.below > 0.0);
+        self.unloading[0] += coverage.unloading;
+        self.unloading[1] += coverage.below;
+    }
 }
 
 impl<C: ContactLaw> Bed<C> {
@@ -177,6 +192,8 @@ impl<C: ContactLaw> Bed<C> {
             coordination: 0.0,
             max_overlap_ratio: 0.0,
             beyond_validity: 0,
+            below_validity: 0,
+            unloading: [0.0; 2],
             contact_time: f64::INFINITY,
             top: f64::NEG_INFINITY,
             max_speed: 0.0,
@@ -199,7 +216,6 @@ impl<C: ContactLaw> Bed<C> {
     }
 
     fn survey_pairs(&self, packing: &mut Packing) {
-        let valid_to = self.contacts.valid_to();
         for (index, push) in self
             .contacts
             .pushes
@@ -222,7 +238,7 @@ impl<C: ContactLaw> Bed<C> {
             }
             let flattening = 0.5 * squeeze.overlap / squeeze.radii[0].min(squeeze.radii[1]);
             packing.max_overlap_ratio = packing.max_overlap_ratio.max(flattening);
-            packing.beyond_validity += usize::from(flattening > valid_to);
+            packing.cover(&self.contacts.coverage(index, squeeze));
             let inverse_mass =
                 self.grains.motions[i].inverse_mass + self.grains.motions[j].inverse_mass;
             let stiffness = self.law.softening() * self.contacts.stiffest(index, squeeze);
@@ -234,14 +250,13 @@ impl<C: ContactLaw> Bed<C> {
 
     /// A free body swings on all its contacts at once, each grain on its own contact against the body's mass.
     fn survey_surfaces(&self, packing: &mut Packing) {
-        let valid_to = self.surfaces.valid_to();
         let mut carried = vec![0.0; self.machine.stations.len()];
         for held in self.surfaces.all().filter(|held| held.patch.push.touches()) {
             let squeeze = held.squeeze(&self.grains);
             let flattening = squeeze.overlap / squeeze.radii[0];
             packing.wall_contacts += usize::from(held.patch.push.force != Vector::ZERO);
             packing.max_overlap_ratio = packing.max_overlap_ratio.max(flattening);
-            packing.beyond_validity += usize::from(flattening > valid_to);
+            packing.cover(&held.coverage(&self.grains));
             let stiffness = self.law.softening() * held.stiffest(&self.grains);
             let body = self.machine.stations[held.surface].inverse_mass;
             let inverse_mass = self.grains.motions[held.grain].inverse_mass + body;

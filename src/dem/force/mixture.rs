@@ -3,6 +3,7 @@
 use super::normal::{Histories, NormalModel, Squeeze, UNLOADING_PROBE};
 use super::sides::{Empty, Flattened};
 use crate::Result;
+use crate::contact::Coverage;
 use crate::contact::pair::{Pressed, balance, in_series};
 use crate::law::AnyLaw;
 use crate::material::Material;
@@ -338,6 +339,15 @@ impl Histories for Chunk {
             .sum()
     }
 
+    fn coverage(&self, at: usize, squeeze: Squeeze) -> Coverage {
+        self.flattening(at, &squeeze)
+            .map(|(count, (kind, side, flattening, radius))| {
+                let side = self.flattened[kind].coverage(side, flattening, radius);
+                side.times(count, 1.0)
+            })
+            .fold(Coverage::default(), Coverage::and)
+    }
+
     fn save(&self, tape: &mut Tape) {
         self.contacts.save(tape);
         self.flattened.iter().for_each(|sides| sides.save(tape));
@@ -387,13 +397,5 @@ impl NormalModel for Mixture {
             Box::new(task) as Box<dyn Histories>
         };
         from.chunks(chunk).enumerate().map(task).collect()
-    }
-
-    /// The least of all materials.
-    fn valid_to(&self) -> f64 {
-        self.kinds
-            .iter()
-            .map(|kind| kind.law.valid_to())
-            .fold(f64::INFINITY, f64::min)
     }
 }

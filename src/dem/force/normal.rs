@@ -3,6 +3,7 @@
 //! A law is called by chunks: the chunk's type is hidden, the loop inside it is not, so that the call costs nothing
 //! and the rest of the bed is compiled once for all laws.
 
+use crate::contact::Coverage;
 use crate::contact::pair::{Press, Pressed};
 use crate::tape::Tape;
 use std::any::Any;
@@ -45,6 +46,9 @@ pub trait Histories: Send + Sync {
     /// Largest overlap (m) so far of a contact of `radii` (m), where the law remembers it.
     fn largest_overlap(&self, at: usize, radii: [f64; 2]) -> Option<f64>;
 
+    /// What of a contact lies within the range of its law.
+    fn coverage(&self, at: usize, squeeze: Squeeze) -> Coverage;
+
     /// Writes the histories on a tape.
     fn save(&self, tape: &mut Tape);
 
@@ -69,9 +73,6 @@ pub trait NormalModel: Send + Sync {
         chunk: usize,
         materials: &dyn Fn(usize) -> [u8; 2],
     ) -> Vec<Box<dyn Histories>>;
-
-    /// Largest flattening over radius the law's source supports.
-    fn valid_to(&self) -> f64;
 }
 
 /// A [`Press`] as a model.
@@ -107,10 +108,6 @@ impl<P: Press> NormalModel for Model<P> {
                 }) as Box<dyn Histories>
             })
             .collect()
-    }
-
-    fn valid_to(&self) -> f64 {
-        self.0.valid_to()
     }
 }
 
@@ -161,6 +158,11 @@ impl<P: Press> Histories for Chunk<P> {
 
     fn largest_overlap(&self, at: usize, radii: [f64; 2]) -> Option<f64> {
         self.law.largest_overlap(radii, &self.histories[at])
+    }
+
+    fn coverage(&self, at: usize, squeeze: Squeeze) -> Coverage {
+        self.law
+            .coverage(squeeze.overlap, squeeze.radii, &self.histories[at])
     }
 
     fn save(&self, tape: &mut Tape) {

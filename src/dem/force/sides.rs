@@ -1,7 +1,7 @@
 //! Type-erased contact sides of one law.
 
 use crate::contact::pair::Side;
-use crate::contact::{LawVisitor, NormalLaw};
+use crate::contact::{Coverage, LawVisitor, NormalLaw};
 use crate::tape::{Keep, Tape};
 use std::any::Any;
 
@@ -27,8 +27,8 @@ pub(in crate::dem) trait Flattened: Send + Sync {
     fn dissipated(&self, side: usize, radius: f64) -> f64;
     /// Largest flattening (m) so far, where the law remembers it.
     fn largest(&self, side: usize, radius: f64) -> Option<f64>;
-    /// Largest flattening over radius the law's source supports.
-    fn valid_to(&self) -> f64;
+    /// What of a side lies within the range of its law.
+    fn coverage(&self, side: usize, flattening: f64, radius: f64) -> Coverage;
     fn save(&self, tape: &mut Tape);
     fn load(&mut self, tape: &mut Tape) -> Option<()>;
     fn same(&self, other: &dyn Flattened) -> bool;
@@ -113,8 +113,9 @@ impl<L: NormalLaw> Flattened for Sides<L> {
         self.law.largest(&self.histories[side]).map(|x| x * radius)
     }
 
-    fn valid_to(&self) -> f64 {
-        self.law.valid_to()
+    fn coverage(&self, side: usize, flattening: f64, radius: f64) -> Coverage {
+        Coverage::of(&self.law, flattening / radius, &self.histories[side])
+            .times(1.0, radius.powi(3))
     }
 
     fn save(&self, tape: &mut Tape) {

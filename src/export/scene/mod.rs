@@ -132,13 +132,6 @@ pub fn check(scene: &Scene) -> Result<()> {
     if !measures.is_empty() {
         return refuse("measure[0]", "must be left out: measures are not exported");
     }
-    if !pairs.is_empty() {
-        return refuse(
-            "pair[0]",
-            "must be left out: an export has the effects of `[contact]` for all contacts",
-        );
-    }
-    check_contact(scene, contact)?;
     let material = groups[0].material;
     if let Some(other) = groups.iter().find(|group| group.material != material) {
         return refuse(
@@ -146,6 +139,13 @@ pub fn check(scene: &Scene) -> Result<()> {
             "must be that of the other groups: an export holds one law",
         );
     }
+    if !pairs.is_empty() {
+        return refuse(
+            "pair[0]",
+            "must be left out: an export has the effects of `[contact]` for all contacts",
+        );
+    }
+    check_contact(scene, contact)?;
     if !laws.iter().any(|law| law == FITTED) {
         return refuse(
             "laws",

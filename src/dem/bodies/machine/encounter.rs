@@ -2,8 +2,20 @@
 
 use super::Machine;
 use crate::dem::bodies::Mobility;
-use parry3d::bounding_volume::BoundingVolume;
-use parry3d::query::intersection_test;
+use parry3d::bounding_volume::{Aabb, BoundingVolume};
+use parry3d::math::Vector;
+use parry3d::query::{ShapeCastOptions, cast_shapes, intersection_test};
+
+/// A loose body that nothing keeps from a body that stands.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fall {
+    /// The one that moves, and the one it comes to.
+    pub bodies: [usize; 2],
+    /// When, s.
+    pub after: f64,
+    /// Lowest and highest corner of the block of space it moves through, m.
+    pub through: [Vector; 2],
+}
 
 impl Machine {
     /// Bound on the speed (m/s) of any point of a body: of told motions their peak, of free bodies the present one,
@@ -62,6 +74,56 @@ impl Machine {
             _ => false,
         };
         (0..self.bodies.len()).filter(loose)
+    }
+
+    /// The first loose body that comes to a standing one in a straight line under `gravity` (m/s2), as long as nothing touches it. One that
+    /// turns, or is thrown across gravity, is left to the run.
+    #[must_use]
+    pub fn first_fall(&self, gravity: Vector) -> Option<Fall> {
+        let falls = self.loose().flat_map(|body| {
+            let standing = (0..self.bodies.len()).filter(move |&other| {
+                matches!(self.bodies[other].mobility, Mobility::Fixed)
+                    && !self.surfaces[other].removed
+            });
+            standing.filter_map(move |other| self.fall(body, other, gravity))
+        });
+        falls.min_by(|a, b| a.after.total_cmp(&b.after))
+    }
+
+    fn fall(&self, body: usize, other: usize, gravity: Vector) -> Option<Fall> {
+        let moving = &self.world.bodies[self.handles[body]];
+        let (velocity, pull) = (moving.linvel(), gravity / self.unit);
+        let way = (velocity.normalize_or_zero() + pull.normalize_or_zero()).normalize_or_zero();
+        let straight = velocity.cross(pull).length() <= 1e-9 * velocity.length() * pull.length();
+        if way == Vector::ZERO || !straight || moving.angvel() != Vector::ZERO {
+            return None;
+        }
+        let [one, two] = [body, other].map(|index| &self.surfaces[index]);
+        let options = ShapeCastOptions {
+            stop_at_penetration: true,
+            ..ShapeCastOptions::default()
+        };
+        let hit = cast_shapes(
+            &one.pose,
+            way,
+            &*one.shape,
+            &two.pose,
+            Vector::ZERO,
+            &*two.shape,
+            options,
+        );
+        let length = hit.ok()??.time_of_impact;
+        // length = speed t + pull t^2 / 2
+        let (speed, pull) = (velocity.dot(way), pull.dot(way));
+        let after = 2.0 * length / (speed + (speed * speed + 2.0 * pull * length).sqrt());
+        let start = one.shape.compute_aabb(&one.pose);
+        let end = Aabb::new(start.mins + way * length, start.maxs + way * length);
+        let through = start.merged(&end);
+        Some(Fall {
+            bodies: [body, other],
+            after,
+            through: [through.mins * self.unit, through.maxs * self.unit],
+        })
     }
 
     /// A loose body that has come to another body, and that other one.

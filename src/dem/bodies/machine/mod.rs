@@ -9,6 +9,7 @@ mod encounter;
 mod joint;
 
 pub use drive::BodyState;
+pub use encounter::Fall;
 
 use crate::Result;
 use crate::dem::bodies::belt::Belt;
@@ -274,22 +275,23 @@ impl Machine {
     /// Bound on how far (m) any point of a surface has moved since it stood at `poses`.
     #[must_use]
     pub fn moved_since(&self, poses: &[Pose]) -> f64 {
-        let furthest =
-            self.surfaces
-                .iter()
-                .zip(poses)
-                .fold(0.0f64, |furthest, (surface, before)| {
-                    if surface.pose == *before {
-                        return furthest;
-                    }
-                    let turn = surface.pose.rotation.angle_between(before.rotation);
-                    let reach = surface.shape.compute_local_bounding_sphere();
-                    let arm = reach.center().length() + reach.radius();
-                    // a plane has no end: without a turn its arm does not matter
-                    let turned = if turn > 0.0 { turn * arm } else { 0.0 };
-                    furthest.max((surface.pose.translation - before.translation).length() + turned)
-                });
-        furthest * self.unit
+        let moved = (0..poses.len()).map(|index| self.way_since(poses, index));
+        moved.fold(0.0, f64::max)
+    }
+
+    /// The same of one surface.
+    #[must_use]
+    pub fn way_since(&self, poses: &[Pose], index: usize) -> f64 {
+        let (surface, before) = (&self.surfaces[index], &poses[index]);
+        if surface.pose == *before {
+            return 0.0;
+        }
+        let turn = surface.pose.rotation.angle_between(before.rotation);
+        let reach = surface.shape.compute_local_bounding_sphere();
+        let arm = reach.center().length() + reach.radius();
+        // a plane has no end: without a turn its arm does not matter
+        let turned = if turn > 0.0 { turn * arm } else { 0.0 };
+        ((surface.pose.translation - before.translation).length() + turned) * self.unit
     }
 
     /// Work (J) the motors of joints have done.

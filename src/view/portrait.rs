@@ -22,6 +22,10 @@ pub struct Portrait {
     pub squeeze: Vec<f64>,
     /// Energy dissipated by plastic flow in the contacts of each grain, J.
     pub plastic: Vec<f64>,
+    /// Material of each grain.
+    pub materials: Vec<u8>,
+    /// Group of each grain.
+    pub groups: Vec<u32>,
     /// Bodies.
     pub bodies: Vec<Sitter>,
     /// Unit of length, m.
@@ -100,6 +104,8 @@ impl Cast {
             radii: frame.radii.iter().map(|&radius| length(radius)).collect(),
             squeeze: wide(&frame.squeeze),
             plastic: wide(&frame.plastic),
+            materials: frame.materials.clone(),
+            groups: frame.groups.clone(),
             bodies: there
                 .map(|(_, (sitter, &[x, y, z, i, j, k, w]))| {
                     let turn = [i, j, k, w].map(f64::from);
@@ -159,6 +165,8 @@ impl Portrait {
             radii: pick(&self.radii),
             squeeze: pick(&self.squeeze),
             plastic: pick(&self.plastic),
+            materials: behind.iter().map(|&grain| self.materials[grain]).collect(),
+            groups: behind.iter().map(|&grain| self.groups[grain]).collect(),
             bodies: self.bodies.clone(),
             unit: self.unit,
             time: self.time,

@@ -1,6 +1,7 @@
 //! Canvas: a picture in memory, with words, lines and a scale of colours, and its PNG file.
 
 use super::colours::{DECADES, colour};
+use super::kinds::colour_of;
 use super::lettering;
 use crate::unit::engineering;
 use std::time::Duration;
@@ -116,6 +117,30 @@ impl Canvas {
             self.write(&text, [x, y + 21], 15.0, Align::Middle);
         }
         self.write(words, [x, y + 41], 17.0, Align::Middle);
+    }
+
+    /// Names of kinds beside their colours, in one line about `x`, its top at `y`; those that find no room are left out.
+    pub fn legend(&mut self, kinds: &[(usize, &str)], [x, y]: [usize; 2]) {
+        const SIZE: f64 = 17.0;
+        let wide = |name: &str| 34 + lettering::width(name, SIZE).ceil() as usize;
+        let mut room = self.width;
+        let fitting: Vec<_> = kinds
+            .iter()
+            .take_while(|(_, name)| {
+                let fits = room >= wide(name);
+                room = room.saturating_sub(wide(name));
+                fits
+            })
+            .collect();
+        let whole: usize = fitting.iter().map(|(_, name)| wide(name)).sum();
+        let mut left = x.saturating_sub(whole / 2);
+        for (kind, name) in fitting {
+            for at in 0..14 * 14 {
+                self.dot(left + at % 14, y + 2 + at / 14, colour_of(*kind));
+            }
+            self.write(name, [left + 20, y], SIZE, Align::Left);
+            left += wide(name);
+        }
     }
 
     fn bytes(&self) -> Vec<u8> {

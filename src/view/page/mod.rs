@@ -2,6 +2,7 @@
 
 use super::colours::{COLOURS, DECADES, level};
 use super::film::{Film, Frame};
+use super::kinds::{KINDS, Names};
 use super::outline::Outline;
 use crate::dem::dynamics::any::AnyBed;
 use crate::files::write_atomic;
@@ -78,15 +79,6 @@ struct Data<'a> {
     bodies: Vec<ShownBody<'a>>,
 }
 
-/// Names that grains are told apart by, in the order of their indices.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Names {
-    /// Materials.
-    pub materials: Vec<String>,
-    /// Groups.
-    pub groups: Vec<String>,
-}
-
 /// Something that grains are told apart by, each of one kind for good.
 #[derive(Debug, Serialize)]
 struct Sort<'a> {
@@ -97,17 +89,16 @@ struct Sort<'a> {
     of: String,
 }
 
-/// Colours of kinds, sRGB: told apart by most eyes (Okabe and Ito 2008), used again from the first on.
-const KINDS: [[f64; 3]; 8] = [
-    [0.90, 0.62, 0.00],
-    [0.34, 0.71, 0.91],
-    [0.00, 0.62, 0.45],
-    [0.94, 0.89, 0.26],
-    [0.00, 0.45, 0.70],
-    [0.84, 0.37, 0.00],
-    [0.80, 0.47, 0.65],
-    [0.60, 0.60, 0.60],
-];
+/// Words of a page.
+#[derive(Debug, Clone, Copy)]
+pub struct Words<'a> {
+    /// Title.
+    pub title: &'a str,
+    /// A line below it.
+    pub summary: &'a str,
+    /// What must be known before the figures are used.
+    pub warnings: &'a [String],
+}
 
 /// What of a grain never changes.
 #[derive(Clone, Copy)]
@@ -178,14 +169,13 @@ impl Seen {
     }
 }
 
-/// Writes the page of a run from its film, grains told apart by `names`; `title` and `summary` stand in its corner.
+/// Writes the page of a run from its film, grains told apart by `names`; `words` stand in its corner.
 ///
 /// # Errors
 /// [`Error::File`] when a frame cannot be read or the page not written.
 pub fn write_page(
     path: &Path,
-    title: &str,
-    summary: &str,
+    words: Words,
     (film, names): (&Film, &Names),
     bed: &dyn AnyBed,
 ) -> Result<()> {
@@ -216,18 +206,19 @@ pub fn write_page(
     let json = serde_json::to_string(&data).map_err(|e| Error::file("write", path)(e.into()))?;
     // "</script" would end the script that holds the data, and "<!--<script" would keep it open for ever
     let json = json.replace('<', "\\u003c");
-    write_atomic(path, html(title, summary, &json).as_bytes())
+    write_atomic(path, html(words, &json).as_bytes())
 }
 
-fn html(title: &str, summary: &str, json: &str) -> String {
+fn html(words: Words, json: &str) -> String {
     let mut html = String::with_capacity(HTML.len() + STYLE.len() + SCRIPT.len() + json.len());
     let mut rest = HTML;
     while let Some((before, after)) = rest.split_once("{{") {
         html.push_str(before);
         let (name, after) = after.split_once("}}").unwrap_or((after, ""));
         match name {
-            "title" => html.push_str(&escape(title)),
-            "summary" => html.push_str(&escape(summary)),
+            "title" => html.push_str(&escape(words.title)),
+            "summary" => html.push_str(&escape(words.summary)),
+            "warnings" => html.push_str(&listed(words.warnings)),
             "style" => html.push_str(STYLE),
             "script" => html.push_str(SCRIPT),
             _ => html.push_str(json),
@@ -236,6 +227,24 @@ fn html(title: &str, summary: &str, json: &str) -> String {
     }
     html.push_str(rest);
     html
+}
+
+/// Warnings as a list that opens, or nothing.
+fn listed(warnings: &[String]) -> String {
+    if warnings.is_empty() {
+        return String::new();
+    }
+    let items = warnings
+        .iter()
+        .map(|warning| format!("<li>{}</li>", escape(warning)));
+    let count = match warnings.len() {
+        1 => "1 warning".to_owned(),
+        count => format!("{count} warnings"),
+    };
+    format!(
+        "<details open><summary>{count}</summary><ul>{}</ul></details>",
+        items.collect::<String>()
+    )
 }
 
 fn escape(text: &str) -> String {
@@ -405,7 +414,18 @@ mod tests {
 
     #[test]
     fn a_page_asks_nothing_of_the_network_and_escapes_what_it_is_told() {
-        let html = html("a < b", "\"c\" & d", "{}");
+        let words = Words {
+            title: "a < b",
+            summary: "\"c\" & d",
+            warnings: &["e < f".to_owned()],
+        };
+        let quiet = Words {
+            warnings: &[],
+            ..words
+        };
+        assert!(!html(quiet, "{}").contains("<details"));
+        let html = html(words, "{}");
+        assert!(html.contains("<summary>1 warning</summary><ul><li>e &lt; f</li></ul>"));
         assert!(html.contains("<h1>a &lt; b</h1>") && html.contains("&quot;c&quot; &amp; d"));
         assert!(!html.contains("{{") && html.contains(">{}</script>"));
         for outside in ["http:", "https:", "src=", "@import", "fetch("] {
