@@ -124,11 +124,31 @@ pub struct Kind {
     of: fn(&[f64]) -> Flow,
 }
 
+/// Flow stress at a strain, without rate or history.
+struct AtRest {
+    strain: f64,
+}
+
+impl FlowVisitor for AtRest {
+    type Output = f64;
+    fn visit<F: FlowStress>(self, flow: F) -> f64 {
+        let none = Lanes::default();
+        let stress = flow.stress(Lanes::splat(self.strain), none, 0.0, &F::Memory::default());
+        stress.min()
+    }
+}
+
 impl Flow {
     /// Constant flow stress of `strength`, Pa.
     #[must_use]
     pub const fn perfectly_plastic(strength: f64) -> Self {
         Flow::PerfectlyPlastic(PerfectlyPlastic { strength })
+    }
+
+    /// Flow stress of a virgin point at an equivalent plastic strain, at rest.
+    #[must_use]
+    pub fn at_rest(self, strain: f64) -> f64 {
+        self.visit(AtRest { strain })
     }
 
     /// Name in running text.
