@@ -113,6 +113,8 @@ pub struct Remedies {
     /// Share of the undeformed body's stable step that most cells keep while those that would shorten it take several short
     /// steps each (`impact::local`); 0: one step for all.
     pub long_step: f64,
+    /// Whether shocks are given a viscous stress (`impact::kernel::shock`).
+    pub shocks: bool,
 }
 
 impl Remedies {
@@ -122,6 +124,7 @@ impl Remedies {
         least_fill: 0.0,
         least_step: 0.0,
         long_step: 0.0,
+        shocks: false,
     };
     /// For yielding bodies in three dimensions, where points near the contact edge turn inside out long before the body is
     /// flattened.
@@ -130,6 +133,7 @@ impl Remedies {
         least_fill: 0.0,
         least_step: 0.0,
         long_step: 0.0,
+        shocks: false,
     };
     /// For impacts that flatten the body, with this many cells a contact radius.
     #[must_use]
@@ -139,6 +143,7 @@ impl Remedies {
             least_fill: 0.4,
             least_step: LEAST_STEP * (COARSE / cells).min(1.0),
             long_step: 0.3,
+            shocks: true,
         }
     }
 

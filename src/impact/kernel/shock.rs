@@ -2,9 +2,9 @@
 //!
 //! Where the wall stops a body at a good part of its wave speed, a shock runs into it. Across a shock the equations of motion
 //! lose energy: what came in kinetically and is not stored becomes heat. A scheme without dissipation cannot lose it; it leaves
-//! it in oscillations from point to point that are as fast as the impact, and these crush points one by one. The viscous stress
-//! of von Neumann and Richtmyer (1950), with Landshoff's linear term (1955), takes the energy where it is lost, and spreads the
-//! shock over a few cells. With w the speed at which the sides of a cell close in,
+//! it in oscillations from point to point. The viscous stress of von Neumann and Richtmyer (1950), with Landshoff's linear term
+//! (1955), takes the energy where it is lost, and spreads the shock over a few cells. What it changes is measured in the guide,
+//! chapter *The solver*. With w the speed at which the sides of a cell close in,
 //!
 //! $$ \tau_q = - \rho_0 (c_2 w^2 + c_1 c_d w), \qquad w = \max(0, - h \dot J) $$
 //!

@@ -82,7 +82,7 @@ pub fn build<M: Constitutive<Axisymmetric>, const P: usize, const N: usize>(
     }
     let remedies = &grid.remedies;
     let own_volume = remedies.own_volume;
-    let shocks = remedies.is_large().then_some(grid.dt_share);
+    let shocks = remedies.shocks.then_some(grid.dt_share);
     let mut points = Points::new(material, section.offsets(), own_volume, shocks);
     for (c, cell) in carried
         .iter()

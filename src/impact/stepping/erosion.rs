@@ -24,7 +24,7 @@ const TAKES_PART: f64 = 0.5;
 const MOST: f64 = 0.5;
 /// Volume ratio of a point at and below which its cell is taken out. Shocks at half the speed of sound leave 0.6, and the
 /// pressure of the material has no barrier against less: what is squeezed so far is about to be turned inside out, and would
-/// be thrown away by forces that grow as 1/J.
+/// be thrown away by forces that grow as 1/J. The value is a choice: what it changes is measured in the guide, chapter *The solver*.
 pub const LEAST_J: f64 = 0.05;
 /// Power iterations after a weakening, and at the start.
 const AFTER: usize = 20;
