@@ -60,7 +60,8 @@ pub struct Summary {
     /// Coefficient of restitution e from the mass-averaged velocity after contact.
     #[serde(deserialize_with = "number_or_null")]
     pub restitution: f64,
-    /// F*: maximum of the force averaged over 2 % of the contact time, N.
+    /// F*: maximum of the force averaged over 2 % of the contact time, of a flattened body also over the time in which the edge of
+    /// the contact crosses a cell, N.
     #[serde(rename = "max_force_N")]
     #[serde(deserialize_with = "number_or_null")]
     pub max_force_n: f64,

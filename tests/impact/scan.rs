@@ -129,31 +129,74 @@ fn three_hundred_impacts_drawn_over_the_whole_range_end_well() {
     assert!(found.is_empty(), "{} of 300: {found:#?}", found.len());
 }
 
-/// Largest changes of F*, delta* (relative) and e with cells of half the size.
-#[test]
-#[ignore = "a minute of a core; three of the twenty miss it: F* by 9 and 6 %, e by 0.0101"]
-fn halved_cells_change_twenty_drawn_impacts_by_less_than_the_tolerance() {
-    let tolerance = 0.05;
-    let off: Vec<(Drawn, [f64; 3])> = drawn(20, 2027)
-        .into_par_iter()
+/// Changes of F*, delta* (relative) and e with cells of half the size.
+fn changes(one: &Drawn, tolerance: f64) -> [f64; 3] {
+    let (case, plan) = one.planned(tolerance);
+    let fine = with_cells(plan.clone(), 0.5, &case.material);
+    let run = |plan: &Plan| -> Impact { simulate(&case.material, case.radius, plan).impact };
+    let (a, b) = (run(&plan).summary, run(&fine).summary);
+    let change = |a: f64, b: f64| (a / b - 1.0).abs();
+    [
+        change(a.max_force_n, b.max_force_n),
+        change(a.max_displacement_m, b.max_displacement_m),
+        (a.restitution - b.restitution).abs(),
+    ]
+}
+
+/// Those of `all` that halved cells change by more than the tolerance, or in e by more than 0.01.
+fn changed(all: &[Drawn], tolerance: f64) -> Vec<(Drawn, [f64; 3])> {
+    all.par_iter()
         .with_max_len(1)
         .filter_map(|one| {
-            let (case, plan) = one.planned(tolerance);
-            let fine = with_cells(plan.clone(), 0.5, &case.material);
-            let run =
-                |plan: &Plan| -> Impact { simulate(&case.material, case.radius, plan).impact };
-            let (a, b) = (run(&plan).summary, run(&fine).summary);
-            let change = |a: f64, b: f64| (a / b - 1.0).abs();
-            let changes = [
-                change(a.max_force_n, b.max_force_n),
-                change(a.max_displacement_m, b.max_displacement_m),
-                (a.restitution - b.restitution).abs(),
-            ];
+            let changes = changes(one, tolerance);
             println!("{one:?}: {changes:.4?}");
             let [force, displacement, restitution] = changes;
             let met = force <= tolerance && displacement <= tolerance && restitution <= 0.01;
-            (!met).then_some((one, changes))
+            (!met).then_some((*one, changes))
         })
-        .collect();
+        .collect()
+}
+
+/// Seventeen of these twenty met it before F was averaged over the crossing of a cell and ten cells a contact radius were the least.
+#[test]
+#[ignore = "several minutes of a core"]
+fn halved_cells_change_twenty_drawn_impacts_by_less_than_the_tolerance() {
+    let off = changed(&drawn(20, 2027), 0.05);
     assert!(off.is_empty(), "{off:#?}");
+}
+
+/// Drawn after the plans were changed for those before.
+#[test]
+#[ignore = "several minutes of a core"]
+fn halved_cells_change_twenty_others_by_less_than_the_tolerance() {
+    let off = changed(&drawn(20, 31), 0.05);
+    assert!(off.is_empty(), "{off:#?}");
+}
+
+#[test]
+fn halved_cells_change_the_three_that_missed_it_by_less_than_the_tolerance() {
+    // F* by 8.8 % (knocks of the contact's edge), by 5.7 % (where it came to rest), e by 0.0101
+    let all = drawn(20, 2027);
+    let three: Vec<Drawn> = (all.iter().copied())
+        .filter(|one| [527.0, 1847.0, 4395.0].contains(&one.ratio.round()))
+        .collect();
+    assert_eq!(three.len(), 3);
+    let off = changed(&three, 0.05);
+    assert!(off.is_empty(), "{off:#?}");
+}
+
+#[test]
+fn plans_of_hardening_materials_expect_the_size_that_runs_have() {
+    let one = Drawn {
+        ratio: 2000.0,
+        severity: 0.3,
+        poisson_ratio: 0.3,
+        hardening: 0.1,
+    };
+    let (case, plan) = one.planned(0.1);
+    let s = simulate(&case.material, case.radius, &plan).impact.summary;
+    let expected = plan.estimate.displacement * case.radius;
+    let off = expected / s.max_displacement_m - 1.0;
+    // by the yield strength alone it is expected to be several times as large
+    assert!(off.abs() < 0.25, "{off}");
 }

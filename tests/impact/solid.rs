@@ -76,10 +76,10 @@ fn full_sliding_gives_the_friction_impulse_and_the_spin_that_follows_from_it() {
     for s in samples.iter().filter(|s| s.force_n > 0.5 * most) {
         assert!((drag(s) / s.force_n - 0.2).abs() < 0.02, "{s:?}");
     }
-    // the lever is shorter than R by the flattening; the inertia of these coarse cells is up to 4 % above 2/5 m R^2
+    // the lever is shorter than R by the flattening; the lumped masses of these coarse cells alone turn 4 % too slowly
     let lever = t.angular_velocity_rad_s * case.radius / (2.5 * lost);
     assert!(
-        lever < 1.0 && lever > 0.96 - s.max_displacement_m / case.radius,
+        lever < 1.0 && lever > 0.99 - s.max_displacement_m / case.radius,
         "{lever}"
     );
 }

@@ -101,7 +101,11 @@ where
         }
         let travel = self.transfer.travel(&self.u);
         let contact = &mut self.model.contact;
-        contact.solve(dt, travel, &self.old, &mut self.v, recip_mass)
+        let mut touch = contact.solve(dt, travel, &self.old, &mut self.v, recip_mass);
+        if touch.impulse > 0.0 {
+            touch.work += self.turn();
+        }
+        touch
     }
 
     /// Add up what contact did in a step of length `dt`.

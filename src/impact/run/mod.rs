@@ -7,6 +7,7 @@ mod advance;
 #[cfg(test)]
 mod kept;
 mod observe;
+mod turning;
 
 use self::record::{Frame, Record, Snapshot};
 use self::transfer::Remap;
@@ -57,7 +58,7 @@ keep_fields!(
     Run<'_, S, M, W, T, N>:
     model, transfer, transferred, u, v, limit, local, dt, time, step, stepped, next_refresh, next_output, impulse, tangential,
     contact_work, plastic, shock, contact_radius, contact_end, frames, closure, compressed, erosion, start;
-    rebuilt plan, speed, old, force, blocks, mass, failure,
+    rebuilt plan, speed, old, force, blocks, mass, failure, excess,
 );
 
 /// A run in progress.
@@ -103,6 +104,8 @@ where
     failure: Option<String>,
     erosion: Erosion,
     start: Start,
+    /// Moment of inertia of the lumped masses above that of the body.
+    excess: f64,
 }
 
 impl<'a, S, M, W, T, const N: usize> Run<'a, S, M, W, T, N>
@@ -152,8 +155,10 @@ where
             failure: None,
             erosion: Erosion::new(plan.grid.remedies.least_step),
             start: Start::default(),
+            excess: 0.0,
             model,
         };
+        run.excess = run.excess_inertia();
         run.frames.push(run.first_frame());
         run
     }

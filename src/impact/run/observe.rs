@@ -35,6 +35,7 @@ where
                 0.5 * m * product
             })
             .sum();
+        let kinetic = kinetic - self.excess_kinetic();
         let incident = self.frames[0].kinetic;
         let given = incident + self.start.elastic + self.contact_work + self.transferred;
         let lost = self.plastic + self.shock + self.erosion.energy() - self.start.eroded;
@@ -119,23 +120,10 @@ where
     /// Motion along the wall so far, where there can be any.
     fn sliding(&self) -> Option<Sliding> {
         let axis = S::SLIDING.filter(|_| self.plan.geometry == Geometry::Half)?;
-        let centre: Vec<f64> = (0..S::Vector::default().as_ref().len())
-            .map(|k| self.mean(&self.u, k) + self.mean(&self.model.places, k))
-            .collect();
-        let (mut momentum, mut inertia) = (0.0, 0.0);
-        for (n, mass) in self.model.mass.iter().enumerate() {
-            let mut arm = self.u[n];
-            for (k, x) in arm.as_mut().iter_mut().enumerate() {
-                *x += self.model.places[n].as_ref()[k] - centre[k];
-            }
-            momentum += mass * S::moment(&arm, &self.v[n]);
-            // that of the nodes, which on a coarse grid is a few per cent above 2/5 m R^2
-            inertia += mass * S::moment(&arm, &S::turned(&arm));
-        }
         Some(Sliding {
             incident: self.speed * self.plan.angle.sin(),
             exit: self.mean(&self.v, axis),
-            spin: momentum / inertia,
+            spin: self.spin(),
             impulse_ratio: -self.tangential / self.impulse,
         })
     }
@@ -194,6 +182,11 @@ where
             closure: self.closure,
             eroded: self.erosion.volume() / self.mass,
             shock: self.shock / self.frames[0].kinetic,
+            knocking: if self.plan.grid.remedies.is_large() {
+                self.plan.grid.fine
+            } else {
+                0.0
+            },
             has_poles: !self.erosion.is_on() || [0, 2].into_iter().all(|pole| self.has(pole)),
             plastic_strain: self.model.points.plastic_strain_volume() / self.mass,
             points: self.model.points.count(),

@@ -129,6 +129,8 @@ pub struct Record {
     pub eroded: f64,
     /// Work of viscous stresses in shocks over the incident kinetic energy.
     pub shock: f64,
+    /// Size of cell whose points knock as the edge of the contact reaches them; 0: they do not.
+    pub knocking: f64,
     /// Whether the material at both poles is still there: else nothing is left to measure the height by.
     pub has_poles: bool,
     /// Volume mean of the equivalent plastic strain.
@@ -153,6 +155,8 @@ pub struct Record {
 
 /// Share of the contact time over which F is averaged before its maximum is taken.
 const FORCE_WINDOW: f64 = 0.02;
+/// The same at most, where cells are coarse: of a half sine the mean over it is 0.4 % low.
+const LONGEST_FORCE_WINDOW: f64 = 0.1;
 
 /// Largest energy imbalance over the incident kinetic energy of a run whose figures hold.
 const MOST_CLOSURE: f64 = 0.01;
@@ -173,12 +177,15 @@ impl Record {
     }
 
     /// Largest force averaged over 2 % of the contact time (of a particle that stays on the wall: of the time in which it
-    /// would bounce, six times that of half the displacement).
+    /// would bounce, six times that of half the displacement), and over no less than the time in which the edge of a flattened
+    /// body crosses a cell: each surface point that it reaches gives a knock.
     fn max_force(&self) -> f64 {
         let most = self.largest(|f| f.displacement);
         let middle = self.frames.iter().find(|f| f.displacement >= 0.5 * most);
         let bounce = 6.0 * middle.map_or(0.0, |f| f.time);
-        let half = 0.5 * FORCE_WINDOW * self.contact_end.min(bounce);
+        let whole = self.contact_end.min(bounce);
+        let [least, longest] = [FORCE_WINDOW, LONGEST_FORCE_WINDOW].map(|share| share * whole);
+        let half = 0.5 * self.crossing().min(longest).max(least);
         let (from, to) = (half, self.contact_end - half);
         let mean = |t: f64| {
             let after = self.at(t + half, |f| f.impulse);
@@ -191,6 +198,21 @@ impl Record {
             .filter(|t| *t >= from && *t <= to)
             .map(mean)
             .fold(0.0, f64::max)
+    }
+
+    /// Mean time in which the edge of the contact goes on by a cell until it is widest; 0 where it does not knock.
+    fn crossing(&self) -> f64 {
+        let mut widest = self.frames[0];
+        for frame in &self.frames {
+            if frame.contact_radius > widest.contact_radius {
+                widest = *frame;
+            }
+        }
+        if widest.contact_radius > 0.0 {
+            self.knocking * widest.time / widest.contact_radius
+        } else {
+            0.0
+        }
     }
 
     /// Largest value of a quantity, by the parabola through the largest frame and its neighbours.

@@ -394,6 +394,7 @@ impl<'a, M: Constitutive<Axisymmetric>, const P: usize, const N: usize> Updated<
             transfer_loss: frames.last().map_or(0.0, missing),
             eroded: 0.0,
             shock: 0.0,
+            knocking: 0.0,
             has_poles: true,
             plastic_strain: self.mean(|p| M::plastic_strain(&p.state).array()[0]),
             points: self.movers.len(),
