@@ -3,8 +3,8 @@
 //! A node takes the mass of its function to one place. That keeps the mass and its centre, but not the moment of inertia: with
 //! cells of size h in all directions it is too large by $m h^2/2$ for quadratic splines, 2.8 % of $2/5\ m R^2$ with cells of
 //! 0.15 R, of which the effective mass of a sticking contact has five sevenths. The mass matrix is therefore
-//! $M + \kappa\ (M r)(M r)^T$ with r the velocities of a turn at unit rate about the centre of mass, and $\kappa$ such that
-//! $r^T M' r$ is the moment of inertia of the sphere. Its inverse adds a turn of the whole body to what the lumped masses answer
+//! $M + \kappa\ (M r)(M r)^T$ with r the velocities of a turn at unit rate about the centre of mass, and $\kappa$ such that such a
+//! turn has the moment of inertia of the sphere. Its inverse adds a turn of the whole body to what the lumped masses answer
 //! (Sherman and Morrison 1950); stresses have no moment, so only contact does.
 
 use super::Run;
