@@ -22,6 +22,7 @@ pub mod contact;
 pub mod cost;
 pub mod curve;
 pub mod dem;
+pub mod discover;
 pub mod document;
 pub mod error;
 pub mod export;

@@ -10,6 +10,7 @@ pub mod compare;
 pub mod completions;
 pub mod cost;
 pub mod diagnostic;
+pub mod discover;
 pub mod export;
 pub mod fit;
 pub mod help;
@@ -19,6 +20,7 @@ pub mod law;
 pub mod log;
 pub mod man;
 pub mod plan;
+pub mod predict;
 pub mod run;
 pub mod schema;
 pub mod show;
@@ -89,6 +91,8 @@ verbs! {
     Theory(theory::TheoryArgs),
     Bed(bed::BedArgs),
     Study(study::StudyArgs),
+    Discover(discover::DiscoverArgs),
+    Predict(predict::PredictArgs),
     Cost(cost::CostArgs),
     Export(export::ExportArgs),
     Law(law::LawArgs),

@@ -3,6 +3,7 @@
 use super::{Command, Context, Verdict, print};
 use crate::bed::scene::Scene;
 use crate::case::Case;
+use crate::discover::file::EquationsFile;
 use crate::document::keys::{Kind, Table};
 use crate::document::schema::schema;
 use crate::error::must_be_one_of;
@@ -26,7 +27,7 @@ pub struct FileKind {
 }
 
 /// Every kind of input file.
-pub const FILES: [FileKind; 4] = [
+pub const FILES: [FileKind; 5] = [
     FileKind {
         name: "case",
         about: "Particle, material and impacts: read by `run`, `plan`, `impact`, `fit`, `compare`, `theory` and `cost`.",
@@ -51,6 +52,11 @@ pub const FILES: [FileKind; 4] = [
                 says its equations in its head; numbers survive reading and writing bit for bit.",
         next: "impactlaw export FILE --to liggghts,lammps",
         kind: LawFile::keys,
+    },
+    FileKind {
+        name: "equations",
+        about: "Written by `discover`, read by `predict`. SI units. The file says how its formulas are meant in its head.",
+        kind: EquationsFile::keys,
     },
 ];
 

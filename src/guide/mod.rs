@@ -18,6 +18,7 @@ chapters! {
     theories, "theories.md";
     bed, "bed.md";
     study, "study.md";
+    discover, "discover.md";
     accuracy, "accuracy.md";
     solver, "solver.md";
     measured, "measured.md";

@@ -3,6 +3,7 @@
 mod bed_resume;
 mod bed_shipped;
 mod cost;
+mod discover;
 mod guide;
 mod help;
 mod impact;

@@ -9,6 +9,7 @@ use impactlaw::command::help::{self, markdown};
 use impactlaw::command::schema::FILES;
 use impactlaw::cost::accuracy::Line;
 use impactlaw::curve::{Summary, Tangential};
+use impactlaw::discover::file::EquationsFile;
 use impactlaw::document::Document;
 use impactlaw::document::reference::{Section as Place, sections, sentence};
 use impactlaw::law::LawFile;
@@ -67,6 +68,7 @@ fn refusal(kind: &str, text: &str) -> String {
         "study" => Study::from_document(&document).err(),
         "scene" => Scene::parse(&text, Path::new("file.toml")).err(),
         "law" => LawFile::parse(&document).err(),
+        "equations" => EquationsFile::parse(&document).err(),
         other => panic!("no reader of {other}"),
     };
     error

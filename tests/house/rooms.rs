@@ -22,7 +22,7 @@ const ROOMS: Order = &[
     &["theory"],
     &["fit"],
     &["law"],
-    &["compare", "cost"],
+    &["compare", "cost", "discover"],
     &["dem"],
     &["listing", "view"],
     &["bed"],

@@ -1,6 +1,8 @@
 //! Show: the results of a run turned into the plain data that the report takes.
 
 mod bed;
+pub mod discover;
+pub mod equations;
 mod impacts;
 mod law;
 pub mod study;

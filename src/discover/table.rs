@@ -1,0 +1,273 @@
+//! Table: the columns of a study by name, with the units their names end in.
+
+use super::dimension::Dimension;
+use crate::{Error, Result};
+use std::path::{Path, PathBuf};
+
+/// Figures of an impact: what a study finds. Every other column of numbers is an input.
+pub const FIGURES: [&str; 16] = [
+    "restitution",
+    "max_force_N",
+    "max_displacement_m",
+    "max_centre_displacement_m",
+    "residual_displacement_m",
+    "contact_time_s",
+    "compression_ratio",
+    "height_at_max_compression_ratio",
+    "equivalent_plastic_strain",
+    "plastic_work_ratio",
+    "shock_work_ratio",
+    "energy_closure",
+    "eroded_volume_ratio",
+    "points",
+    "steps",
+    "wall_s",
+];
+
+/// Column with the status of a row.
+const STATUS: &str = "status";
+
+/// A column of numbers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Column {
+    /// Its name, with the unit at the end.
+    pub name: String,
+    /// Dimension by that unit.
+    pub dimension: Dimension,
+    /// One value a row.
+    pub values: Vec<f64>,
+}
+
+impl Column {
+    /// Smallest and largest value.
+    #[must_use]
+    pub fn range(&self) -> [f64; 2] {
+        let fold = |start: f64, f: fn(f64, f64) -> f64| self.values.iter().copied().fold(start, f);
+        [
+            fold(f64::INFINITY, f64::min),
+            fold(f64::NEG_INFINITY, f64::max),
+        ]
+    }
+
+    /// Whether all its values are the same to nine digits.
+    #[must_use]
+    pub fn constant(&self) -> bool {
+        let [low, high] = self.range();
+        high - low <= 1e-9 * high.abs().max(low.abs())
+    }
+}
+
+/// Results of a study.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Table {
+    /// Where they were read.
+    pub path: PathBuf,
+    /// What was given to the runs.
+    pub inputs: Vec<Column>,
+    /// What they found.
+    pub figures: Vec<Column>,
+    /// Columns that hold words, or nothing in any row.
+    pub left_out: Vec<String>,
+    /// Rows that did not end with status ok, which are not here.
+    pub failed: usize,
+}
+
+impl Table {
+    /// Reads `results.csv`.
+    ///
+    /// # Errors
+    /// [`Error::File`] when it cannot be read, [`Error::Value`] for what is no table of a study.
+    pub fn read(path: &Path) -> Result<Self> {
+        let text = std::fs::read_to_string(path).map_err(Error::file("read", path))?;
+        Self::parse(&text, path)
+    }
+
+    /// Reads the text of one.
+    ///
+    /// # Errors
+    /// As [`Table::read`].
+    pub fn parse(text: &str, path: &Path) -> Result<Self> {
+        let refuse = |key: &str, found: String, allowed: &str| Error::Value {
+            path: path.to_owned(),
+            key: key.to_owned(),
+            found,
+            allowed: allowed.to_owned(),
+            place: None,
+        };
+        let mut reader = csv::ReaderBuilder::new()
+            .comment(Some(b'#'))
+            .from_reader(text.as_bytes());
+        let broken = |error: csv::Error| {
+            let at = error.position().map_or(0, csv::Position::line);
+            refuse(
+                "table",
+                format!("line {at}: {error}"),
+                "must be the results.csv of a study",
+            )
+        };
+        let names: Vec<String> = reader
+            .headers()
+            .map_err(broken)?
+            .iter()
+            .map(str::to_owned)
+            .collect();
+        for (i, name) in names.iter().enumerate() {
+            if names[..i].contains(name) {
+                return Err(refuse(
+                    name,
+                    "the column twice".to_owned(),
+                    "every column once",
+                ));
+            }
+        }
+        let rows = reader
+            .records()
+            .collect::<std::result::Result<Vec<_>, _>>()
+            .map_err(broken)?;
+        let status = names.iter().position(|name| name == STATUS);
+        let ok = |row: &&csv::StringRecord| status.is_none_or(|at| &row[at] == "ok");
+        let good: Vec<&csv::StringRecord> = rows.iter().filter(ok).collect();
+        if good.len() < 2 {
+            return Err(refuse(
+                "rows",
+                format!("{} with status ok", good.len()),
+                "an equation needs many: run a study of more cases",
+            ));
+        }
+        let mut table = Table {
+            path: path.to_owned(),
+            inputs: Vec::new(),
+            figures: Vec::new(),
+            left_out: Vec::new(),
+            failed: rows.len() - good.len(),
+        };
+        for (at, name) in names.iter().enumerate().filter(|(_, name)| *name != STATUS) {
+            let cells: Vec<&str> = good.iter().map(|row| row[at].trim()).collect();
+            let void = |cell: &&str| cell.is_empty() || cell.eq_ignore_ascii_case("nan");
+            let figure = FIGURES.contains(&&name[..]);
+            if cells.iter().all(|cell| cell.is_empty()) {
+                return Err(refuse(
+                    name,
+                    "an empty column".to_owned(),
+                    "a value in every row",
+                ));
+            }
+            let word = |cell: &&str| !void(cell) && cell.parse::<f64>().is_err();
+            // constants of flow stresses that no case has, and names of runs
+            if (!figure && cells.iter().all(void)) || cells.iter().all(word) {
+                table.left_out.push(name.clone());
+                continue;
+            }
+            let mut values = Vec::with_capacity(cells.len());
+            for (row, cell) in cells.iter().enumerate() {
+                match cell.parse::<f64>() {
+                    Ok(value) if value.is_finite() => values.push(value),
+                    // counts and times of runs are not looked at
+                    _ if figure && !cell.is_empty() && !word(cell) => values.push(f64::NAN),
+                    _ => {
+                        return Err(refuse(
+                            name,
+                            format!("`{cell}` in row {} of those with status ok", row + 1),
+                            "must be a number in every row",
+                        ));
+                    }
+                }
+            }
+            let column = Column {
+                name: name.clone(),
+                dimension: Dimension::of_name(name).ok_or_else(|| {
+                    refuse(
+                        name,
+                        "no unit known at the end of its name".to_owned(),
+                        &format!(
+                            "must end in a unit ({}), or, without one, in one of {}",
+                            Dimension::known().join(", "),
+                            Dimension::bare().join(", ")
+                        ),
+                    )
+                })?,
+                values,
+            };
+            match figure {
+                true => table.figures.push(column),
+                false => table.inputs.push(column),
+            }
+        }
+        for (i, one) in table.inputs.iter().enumerate() {
+            let twin = table.inputs[..i]
+                .iter()
+                .find(|other| !one.constant() && other.values == one.values);
+            if let Some(twin) = twin {
+                return Err(refuse(
+                    &one.name,
+                    format!("the values of `{}`", twin.name),
+                    "two columns that never differ cannot be told apart: take one out",
+                ));
+            }
+        }
+        Ok(table)
+    }
+
+    /// The input called `name`.
+    #[must_use]
+    pub fn input(&self, name: &str) -> Option<&Column> {
+        self.inputs.iter().find(|column| column.name == name)
+    }
+
+    /// The figure called `name`.
+    ///
+    /// # Errors
+    /// [`Error::Value`] when there is none, it has a row without value, or always the same.
+    pub fn figure(&self, name: &str) -> Result<&Column> {
+        let refuse = |found: String, allowed: String| Error::Value {
+            path: self.path.clone(),
+            key: name.to_owned(),
+            found,
+            allowed,
+            place: None,
+        };
+        let Some(column) = self.figures.iter().find(|column| column.name == name) else {
+            let names: Vec<&str> = self.figures.iter().map(|c| &c.name[..]).collect();
+            return Err(refuse(
+                "no such figure".to_owned(),
+                format!("it has {}", names.join(", ")),
+            ));
+        };
+        if let Some(row) = column.values.iter().position(|value| !value.is_finite()) {
+            return Err(refuse(
+                format!("no number in row {} of those with status ok", row + 1),
+                "an equation needs a value in every row".to_owned(),
+            ));
+        }
+        if column.constant() {
+            return Err(refuse(
+                format!("{} in every row", column.values[0]),
+                "what never changes has no equation: leave it out of --target".to_owned(),
+            ));
+        }
+        Ok(column)
+    }
+
+    /// The rows of these numbers alone.
+    #[must_use]
+    pub fn some(&self, rows: &[usize]) -> Table {
+        let pick = |columns: &[Column]| -> Vec<Column> {
+            let one = |column: &Column| Column {
+                values: rows.iter().map(|&row| column.values[row]).collect(),
+                ..column.clone()
+            };
+            columns.iter().map(one).collect()
+        };
+        Table {
+            inputs: pick(&self.inputs),
+            figures: pick(&self.figures),
+            ..self.clone()
+        }
+    }
+
+    /// Number of rows.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.inputs.first().map_or(0, |column| column.values.len())
+    }
+}
