@@ -25,6 +25,9 @@ pub struct CompareArgs {
     /// Output folder (default: the impacts' folder).
     #[arg(short, long)]
     pub out: Option<PathBuf>,
+    /// Compare the theories too whose constants are unverified.
+    #[arg(long)]
+    pub unverified: bool,
     /// Print as JSON.
     #[arg(long)]
     pub json: bool,
@@ -64,7 +67,7 @@ impl Command for CompareArgs {
         context.open_log(&out, "compare", &case.hash);
         let mut comparison = Comparison::new(&case.material, case.radius, &impacts);
         add_fitted(&mut comparison, &file)?;
-        comparison.add_theories();
+        comparison.add_theories(self.unverified);
         write(&comparison, &out, &context.provenance(&case.hash))?;
         match self.json {
             true => print_json(comparison.rows())?,

@@ -138,7 +138,7 @@ fn stages(
     let impacts: Vec<Impact> = simulated.iter().map(|one| one.impact.clone()).collect();
     let mut comparison = Comparison::new(&case.material, case.radius, &impacts);
     compare::add_fitted(&mut comparison, &law)?;
-    comparison.add_theories();
+    comparison.add_theories(false);
     compare::write(&comparison, out, &provenance)?;
     let bed = scene
         .map(|scene| {

@@ -5,7 +5,7 @@ use crate::case::Case;
 use crate::contact::rebound::rebound;
 use crate::contact::{LawVisitor, NormalLaw};
 use crate::material::constant::Constant;
-use crate::theory::published::{Publication, left_out};
+use crate::theory::published::{Evidence, Publication, left_out};
 use crate::theory::{FORMULAS, Theory};
 use crate::unit::{self, Length, Velocity};
 use crate::{Error, Result};
@@ -83,6 +83,9 @@ impl Command for TheoryArgs {
                     Some(formula) => formula,
                     None => model.parse::<Theory>()?.publication(),
                 };
+                if publication.evidence == Evidence::Unverified {
+                    tracing::warn!("{}: its constants are unverified", publication.name);
+                }
                 for sentence in left_out([publication], &case.material) {
                     tracing::warn!("{sentence}");
                 }

@@ -17,6 +17,7 @@ use crate::curve::{Impact, Status};
 use crate::files::write_atomic;
 use crate::material::Material;
 use crate::theory::Theory;
+use crate::theory::published::Evidence;
 use crate::{Error, Result};
 use std::path::Path;
 
@@ -73,10 +74,11 @@ impl Comparison {
         }
     }
 
-    /// Add every theory that has a law of the material.
-    pub fn add_theories(&mut self) {
+    /// Add every theory that has a law of the material; those that are unverified if `all`.
+    pub fn add_theories(&mut self, all: bool) {
         let material = self.material;
-        for theory in Theory::of(&material) {
+        let shown = |theory: &Theory| all || theory.evidence() == Evidence::Checked;
+        for theory in Theory::of(&material).filter(shown) {
             // the only refusal is a missing yield strength, which has just been looked at
             let _ = theory.visit(&material, Added(self, theory.name()));
         }

@@ -5,7 +5,7 @@ use crate::tape::keep_fields;
 
 /// Branch that leaves the loading curve at a peak $(x_m, \varphi_m)$:
 ///
-/// $$ \varphi = \varphi_m \left(\frac{x - x_r}{x_m - x_r}\right)^n, \qquad
+/// $$ \varphi = s\ \varphi_m \left(\frac{x - x_r}{x_m - x_r}\right)^n, \qquad
 ///    a^2 = a_m^2 \left(\frac{x - x_r}{x_m - x_r}\right)^q $$
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Unloading {
@@ -15,6 +15,8 @@ pub struct Unloading {
     pub exponent: f64,
     /// Exponent q of the contact area.
     pub area_exponent: f64,
+    /// Share s of the loading force with which it starts; 1 but for models whose branches do not meet.
+    pub start: f64,
 }
 
 impl Unloading {
@@ -25,6 +27,7 @@ impl Unloading {
             residual,
             exponent: 1.5,
             area_exponent: 1.0,
+            start: 1.0,
         }
     }
 
@@ -35,6 +38,7 @@ impl Unloading {
             residual,
             exponent: 1.0,
             area_exponent: 1.0,
+            start: 1.0,
         }
     }
 }
@@ -64,7 +68,7 @@ pub trait Envelope: Clone + Send + Sync + 'static {
 pub struct Peak {
     /// Largest flattening $x_m$ so far.
     flattening: f64,
-    /// Reduced force there, Pa.
+    /// Reduced force with which the branch starts there, Pa.
     force: f64,
     /// Flattening at which contact is lost.
     residual: f64,
@@ -107,7 +111,7 @@ impl<E: Envelope> NormalLaw for E {
         let branch = self.unloading(x, force);
         *peak = Peak {
             flattening: x,
-            force,
+            force: force * branch.start,
             residual: branch.residual,
             exponent: branch.exponent,
         };

@@ -1,6 +1,6 @@
 //! Hertz: the elastic sphere on a rigid plane.
 
-use super::published::{ELASTIC, FlowConstants, Published, PublishedLaw, Restitution};
+use super::published::{Evidence, ELASTIC, FlowConstants, Published, PublishedLaw, Restitution};
 use crate::contact::{NormalLaw, State};
 use crate::material::Material;
 
@@ -82,6 +82,7 @@ impl Published for Hertz {
     const SUMMARY: &'static str = "elastic";
     const PAPERS: &'static [&'static str] = &["Hertz1882", "Johnson1985"];
     const REFERENCE: &'static str = "Hertz 1882; Johnson 1985, section 4.2";
+    const EVIDENCE: Evidence = Evidence::Checked;
     const FLOW: FlowConstants = ELASTIC;
     const RESTITUTION: Option<Restitution> = Some(|_, _| Some(1.0));
 }

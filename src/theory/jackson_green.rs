@@ -3,12 +3,12 @@
 
 use super::envelope::{Envelope, Unloading};
 use super::hertz::Hertz;
-use super::published::{FlowConstants, Published, PublishedLaw, Restitution, YIELD_STRENGTH_ONLY};
+use super::published::{Evidence, FlowConstants, Published, PublishedLaw, Restitution, YIELD_STRENGTH_ONLY};
 use crate::contact::loading::work_between;
 use crate::material::Material;
 
 /// $w$ up to which the sphere is Hertzian.
-const ELASTIC_TO: f64 = 1.9;
+pub(super) const ELASTIC_TO: f64 = 1.9;
 /// Limit of the hardness over the yield strength for a small contact.
 const HARDNESS_RATIO: f64 = 2.84;
 /// Largest a/R of the finite-element runs.
@@ -50,8 +50,27 @@ pub struct JacksonGreen {
 }
 
 /// Ratio C of the peak pressure at first yield to the yield strength.
-fn yield_factor(material: &Material) -> f64 {
+pub(super) fn yield_factor(material: &Material) -> f64 {
     1.295 * (0.736 * material.poisson_ratio).exp()
+}
+
+/// Exponent B by which the contact of a yielded body grows faster than the elastic one.
+pub(super) fn growth(material: &Material, yield_strength: f64) -> f64 {
+    0.14 * (23.0 * yield_strength / material.contact_modulus()).exp()
+}
+
+/// Force over $P_c$ and its derivative at `w`, from the hardness factor $4 H/(C Y)$ there and its derivative.
+pub(super) fn elastic_plastic(w: f64, [hardness, rate]: [f64; 2]) -> [f64; 2] {
+    let elastic = (-0.25 * w.powf(5.0 / 12.0)).exp();
+    let plastic = -(-w.powf(5.0 / 9.0) / 25.0).exp_m1();
+    let plastic_rate = (1.0 - plastic) * 5.0 / 225.0 * w.powf(-4.0 / 9.0);
+    [
+        elastic * w * w.sqrt() + hardness * plastic * w,
+        elastic * w.sqrt() * (1.5 - 5.0 / 48.0 * w.powf(5.0 / 12.0))
+            + rate * plastic * w
+            + hardness * plastic_rate * w
+            + hardness * plastic,
+    ]
 }
 
 impl JacksonGreen {
@@ -64,36 +83,24 @@ impl JacksonGreen {
         Some(Self {
             elastic: Hertz::of(material),
             yield_factor: c,
-            growth: 0.14 * (23.0 * y / material.contact_modulus()).exp(),
+            growth: growth(material, y),
             critical_flattening: point.displacement,
             critical_force: point.force,
         })
     }
 
-    /// Exponents of the two exponentials and the hardness factor $4 H_G/(C Y)$ with its derivative in w.
-    fn terms(&self, x: f64) -> Terms {
+    /// Hardness factor $4 H_G/(C Y)$ and its derivative in w.
+    fn hardness(&self, x: f64) -> [f64; 2] {
         let w = x / self.critical_flattening;
         let a = self.loading_contact_radius(x);
         let softening = (-0.82 * a.powf(-0.7)).exp();
         let scale = 4.0 * HARDNESS_RATIO / self.yield_factor;
         let a_rate = a * (1.0 + self.growth) / (2.0 * w);
-        Terms {
-            w,
-            elastic: (-0.25 * w.powf(5.0 / 12.0)).exp(),
-            plastic: -(-w.powf(5.0 / 9.0) / 25.0).exp_m1(),
-            hardness: scale * (1.0 - softening),
-            hardness_rate: -scale * softening * 0.82 * 0.7 * a.powf(-1.7) * a_rate,
-        }
+        [
+            scale * (1.0 - softening),
+            -scale * softening * 0.82 * 0.7 * a.powf(-1.7) * a_rate,
+        ]
     }
-}
-
-/// Parts of the elastic-plastic force at one flattening.
-struct Terms {
-    w: f64,
-    elastic: f64,
-    plastic: f64,
-    hardness: f64,
-    hardness_rate: f64,
 }
 
 impl Published for JacksonGreen {
@@ -101,6 +108,7 @@ impl Published for JacksonGreen {
     const SUMMARY: &'static str = "finite-element fit; unloading of Jackson, Green and Marghitu";
     const PAPERS: &'static [&'static str] = &["JacksonGreen2005", "JacksonGreenMarghitu2010"];
     const REFERENCE: &'static str = "Jackson and Green 2005, J. Tribol. 127, 343; unloading Jackson, Green and Marghitu 2010, Nonlinear Dyn. 60, 217";
+    const EVIDENCE: Evidence = Evidence::Checked;
     const FLOW: FlowConstants = YIELD_STRENGTH_ONLY;
     const RESTITUTION: Option<Restitution> = Some(restitution);
 }
@@ -118,21 +126,15 @@ impl Envelope for JacksonGreen {
         if x <= ELASTIC_TO * self.critical_flattening {
             return self.elastic.reduced_force(x);
         }
-        let t = self.terms(x);
-        self.critical_force * (t.elastic * t.w * t.w.sqrt() + t.hardness * t.plastic * t.w)
+        self.critical_force * elastic_plastic(x / self.critical_flattening, self.hardness(x))[0]
     }
 
     fn loading_slope(&self, x: f64) -> f64 {
         if x <= ELASTIC_TO * self.critical_flattening {
             return self.elastic.slope(x);
         }
-        let t = self.terms(x);
-        let elastic = t.elastic * t.w.sqrt() * (1.5 - 5.0 / 48.0 * t.w.powf(5.0 / 12.0));
-        let plastic_rate = (1.0 - t.plastic) * 5.0 / 225.0 * t.w.powf(-4.0 / 9.0);
-        let plastic = t.hardness_rate * t.plastic * t.w
-            + t.hardness * plastic_rate * t.w
-            + t.hardness * t.plastic;
-        self.critical_force / self.critical_flattening * (elastic + plastic)
+        let [_, slope] = elastic_plastic(x / self.critical_flattening, self.hardness(x));
+        self.critical_force / self.critical_flattening * slope
     }
 
     fn loading_work(&self, x: f64) -> f64 {

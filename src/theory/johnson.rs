@@ -2,7 +2,7 @@
 
 use super::envelope::{Envelope, Unloading};
 use super::hertz::Hertz;
-use super::published::{FlowConstants, Published, PublishedLaw, Restitution, YIELD_STRENGTH_ONLY};
+use super::published::{Evidence, FlowConstants, Published, PublishedLaw, Restitution, YIELD_STRENGTH_ONLY};
 use crate::material::Material;
 use std::f64::consts::PI;
 
@@ -53,6 +53,7 @@ impl Published for Johnson {
     const SUMMARY: &'static str = "fully plastic at 3 Y, elastic unloading";
     const PAPERS: &'static [&'static str] = &["Johnson1985"];
     const REFERENCE: &'static str = "Johnson 1985, sections 6.3 and 11.5, p = 3 Y; Hertzian until the plastic line is met (not in the book)";
+    const EVIDENCE: Evidence = Evidence::Checked;
     const FLOW: FlowConstants = YIELD_STRENGTH_ONLY;
     const RESTITUTION: Option<Restitution> = Some(restitution);
 }

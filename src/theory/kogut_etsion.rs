@@ -2,7 +2,7 @@
 
 use super::envelope::{Envelope, Unloading};
 use super::hertz::Hertz;
-use super::published::{FlowConstants, Published, PublishedLaw, Restitution, YIELD_STRENGTH_ONLY};
+use super::published::{Evidence, FlowConstants, Published, PublishedLaw, Restitution, YIELD_STRENGTH_ONLY};
 use crate::material::Material;
 
 /// Hardness over the yield strength, H/Y.
@@ -86,6 +86,7 @@ impl Published for KogutEtsion {
         "finite-element power laws; unloading of Etsion, Kligerman and Kadin";
     const PAPERS: &'static [&'static str] = &["KogutEtsion2002", "EtsionKligermanKadin2005"];
     const REFERENCE: &'static str = "Kogut and Etsion 2002, J. Appl. Mech. 69, 657; unloading Etsion, Kligerman and Kadin 2005, Int. J. Solids Struct. 42, 3716 (unloading constants unverified)";
+    const EVIDENCE: Evidence = Evidence::Checked;
     const FLOW: FlowConstants = YIELD_STRENGTH_ONLY;
     const RESTITUTION: Option<Restitution> = None;
 }
@@ -154,6 +155,7 @@ impl Envelope for KogutEtsion {
             residual: peak * (1.0 - w.powf(-0.28)) * (1.0 - w.powf(-0.69)),
             exponent: 1.5 * w.powf(-0.0331),
             area_exponent: w.powf(-0.12),
+            start: 1.0,
         }
     }
 

@@ -1,7 +1,7 @@
 //! Luding: linear springs whose unloading stiffens with the largest overlap up to a limit branch.
 
 use super::envelope::{Envelope, Unloading};
-use super::published::{FlowConstants, Published, PublishedLaw, Restitution, YIELD_STRENGTH_ONLY};
+use super::published::{Evidence, FlowConstants, Published, PublishedLaw, Restitution, YIELD_STRENGTH_ONLY};
 use super::spring::Springs;
 use crate::material::Material;
 
@@ -89,6 +89,7 @@ impl Published for Luding {
         "linear; as `walton-braun-variable` up to ρV²/Y = 0.1, elastic beyond; without adhesion";
     const PAPERS: &'static [&'static str] = &["Luding2008"];
     const REFERENCE: &'static str = "Luding 2008, Granular Matter 10, 235, without adhesion; k1 = 5 R Y (Walton 2006), k2 from Johnson's e at rho V^2/Y = 0.01, limit branch from 0.1 on";
+    const EVIDENCE: Evidence = Evidence::Checked;
     const FLOW: FlowConstants = YIELD_STRENGTH_ONLY;
     const RESTITUTION: Option<Restitution> =
         Some(|material, velocity| Some(Luding::of(material)?.restitution(material, velocity)));

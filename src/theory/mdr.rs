@@ -1,6 +1,6 @@
 //! Zunker and Kamrin: the method of dimensionality reduction (MDR) for an elastic-perfectly plastic sphere on one flat.
 
-use super::published::{FlowConstants, Published, PublishedLaw, Restitution, YIELD_STRENGTH_ONLY};
+use super::published::{Evidence, FlowConstants, Published, PublishedLaw, Restitution, YIELD_STRENGTH_ONLY};
 use crate::contact::NormalLaw;
 use crate::material::Material;
 use crate::material::stress::Moduli;
@@ -255,6 +255,7 @@ impl Published for Mdr {
         "dimensionality reduction, one flat; elastic foundation on unloading";
     const PAPERS: &'static [&'static str] = &["ZunkerKamrin2024"];
     const REFERENCE: &'static str = "Zunker and Kamrin 2024, J. Mech. Phys. Solids 183, 105492, one flat, without adhesion (equations from the code in LAMMPS); its tangent beyond delta = R/2";
+    const EVIDENCE: Evidence = Evidence::Checked;
     const FLOW: FlowConstants = YIELD_STRENGTH_ONLY;
     const RESTITUTION: Option<Restitution> = None;
 }

@@ -5,6 +5,7 @@
 //! [`FORMULAS`]. A new theory is a new file, its `mod` line and one line of that list.
 
 pub mod envelope;
+pub mod ghaednia;
 pub mod hertz;
 pub mod jackson_green;
 pub mod johnson;
@@ -13,6 +14,7 @@ pub mod luding;
 pub mod mdr;
 pub mod published;
 pub mod spring;
+pub mod stronge;
 pub mod thornton;
 pub mod walton_braun;
 pub mod wu_li_thornton;
@@ -20,7 +22,7 @@ pub mod wu_li_thornton;
 use crate::contact::LawVisitor;
 use crate::material::Material;
 use crate::{Error, Result};
-use published::{Publication, PublishedLaw, Restitution};
+use published::{Evidence, Publication, PublishedLaw, Restitution};
 use serde::{Deserialize, Serialize};
 
 /// Makes [`Theory`] and [`FORMULAS`] from the list of models.
@@ -99,6 +101,17 @@ impl Theory {
         Theory::ALL
             .into_iter()
             .filter(move |theory| theory.applies_to(&material))
+    }
+
+    /// What its constants rest on.
+    #[must_use]
+    pub fn evidence(self) -> Evidence {
+        self.publication().evidence
+    }
+
+    /// The theories that comparisons of `material` show unasked: all that have a law of it and are not unverified.
+    pub fn compared(material: &Material) -> impl Iterator<Item = Theory> {
+        Theory::of(material).filter(|theory| theory.evidence() == Evidence::Checked)
     }
 
     /// Names of the theories an elastic body has, each between two `quote`s.
@@ -191,6 +204,8 @@ theories! {
         WaltonBraun => walton_braun::Constant,
         WaltonBraunVariable => walton_braun::Variable,
         Luding => luding::Luding,
+        Ghaednia => ghaednia::Ghaednia,
+        Stronge => stronge::Stronge,
     }
     formulas {
         wu_li_thornton::WuLiThornton,

@@ -18,6 +18,16 @@ pub const ELASTIC: FlowConstants = &[];
 /// A model of perfectly plastic bodies.
 pub const YIELD_STRENGTH_ONLY: FlowConstants = &[YIELD_STRENGTH];
 
+/// What the constants of a model rest on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Evidence {
+    /// Derived anew, or seen in the paper or in sources that do not depend on each other.
+    Checked,
+    /// Written from memory, and confirmed by nothing but its own consistency. Such a model is had by its name, and stands in no
+    /// comparison that did not ask for it.
+    Unverified,
+}
+
 /// A published model, as its file states it.
 pub trait Published {
     /// Name in files and on the command line.
@@ -28,6 +38,8 @@ pub trait Published {
     const PAPERS: &'static [&'static str];
     /// Papers, and what in the implementation is not theirs.
     const REFERENCE: &'static str;
+    /// What its constants rest on.
+    const EVIDENCE: Evidence;
     /// What it takes of the flow stress.
     const FLOW: FlowConstants;
     /// Restitution as the authors give it; `None` where they give none.
@@ -54,6 +66,8 @@ pub struct Publication {
     pub papers: &'static [&'static str],
     /// [`Published::REFERENCE`].
     pub reference: &'static str,
+    /// [`Published::EVIDENCE`].
+    pub evidence: Evidence,
     /// [`Published::FLOW`].
     pub flow: FlowConstants,
     /// [`Published::RESTITUTION`].
@@ -69,6 +83,7 @@ impl Publication {
             summary: P::SUMMARY,
             papers: P::PAPERS,
             reference: P::REFERENCE,
+            evidence: P::EVIDENCE,
             flow: P::FLOW,
             restitution: P::RESTITUTION,
         }

@@ -2,7 +2,7 @@
 
 use super::envelope::{Envelope, Unloading};
 use super::hertz::Hertz;
-use super::published::{FlowConstants, Published, PublishedLaw, Restitution, YIELD_STRENGTH_ONLY};
+use super::published::{Evidence, FlowConstants, Published, PublishedLaw, Restitution, YIELD_STRENGTH_ONLY};
 use crate::material::{Material, YIELD_PRESSURE_RATIO};
 use std::f64::consts::PI;
 
@@ -62,6 +62,7 @@ impl Published for AtFirstYield {
     const PAPERS: &'static [&'static str] = &["Thornton1997"];
     const REFERENCE: &'static str =
         "Thornton 1997, J. Appl. Mech. 64, 383, pressure limited at first yield, 1.6 Y";
+    const EVIDENCE: Evidence = Evidence::Checked;
     const FLOW: FlowConstants = YIELD_STRENGTH_ONLY;
     const RESTITUTION: Option<Restitution> =
         Some(|material, velocity| restitution(material, YIELD_PRESSURE_RATIO, velocity));
@@ -85,6 +86,7 @@ impl Published for AtHardness {
     const PAPERS: &'static [&'static str] = &["Thornton1997"];
     const REFERENCE: &'static str =
         "Thornton 1997, J. Appl. Mech. 64, 383, pressure limited at the hardness, 2.8 Y";
+    const EVIDENCE: Evidence = Evidence::Checked;
     const FLOW: FlowConstants = YIELD_STRENGTH_ONLY;
     const RESTITUTION: Option<Restitution> =
         Some(|material, velocity| restitution(material, HARDNESS_RATIO, velocity));

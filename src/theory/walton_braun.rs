@@ -1,7 +1,7 @@
 //! Walton and Braun: a linear spring in loading and a stiffer one in unloading.
 
 use super::envelope::{Envelope, Unloading};
-use super::published::{FlowConstants, Published, PublishedLaw, Restitution, YIELD_STRENGTH_ONLY};
+use super::published::{Evidence, FlowConstants, Published, PublishedLaw, Restitution, YIELD_STRENGTH_ONLY};
 use super::spring::Springs;
 use crate::material::Material;
 
@@ -79,6 +79,7 @@ impl Published for Constant {
     const SUMMARY: &'static str = "linear; unloading stiffer by a constant ratio";
     const PAPERS: &'static [&'static str] = &["WaltonBraun1986"];
     const REFERENCE: &'static str = "Walton and Braun 1986, J. Rheol. 30, 949, constant k2; k1 = 5 R Y (Walton 2006), k2 from Johnson's e at rho V^2/Y = 0.01";
+    const EVIDENCE: Evidence = Evidence::Checked;
     const FLOW: FlowConstants = YIELD_STRENGTH_ONLY;
     const RESTITUTION: Option<Restitution> = Some(|material, velocity| {
         Some(WaltonBraun::constant(material)?.restitution(material, velocity))
@@ -102,6 +103,7 @@ impl Published for Variable {
     const SUMMARY: &'static str = "linear; unloading stiffness grows with the largest force";
     const PAPERS: &'static [&'static str] = &["WaltonBraun1986"];
     const REFERENCE: &'static str = "Walton and Braun 1986, J. Rheol. 30, 949, k2 growing with the force; k1 = 5 R Y (Walton 2006), k2 from Johnson's e at rho V^2/Y = 0.01";
+    const EVIDENCE: Evidence = Evidence::Checked;
     const FLOW: FlowConstants = YIELD_STRENGTH_ONLY;
     const RESTITUTION: Option<Restitution> = Some(|material, velocity| {
         Some(WaltonBraun::variable(material)?.restitution(material, velocity))

@@ -1,6 +1,6 @@
 //! Wu, Li and Thornton: restitution at finite plastic deformation, from finite elements; no force law.
 
-use super::published::{FlowConstants, Published, Restitution, YIELD_STRENGTH_ONLY};
+use super::published::{Evidence, FlowConstants, Published, Restitution, YIELD_STRENGTH_ONLY};
 use crate::material::{Material, YIELD_PRESSURE_RATIO};
 
 /// Prefactor of the curve of finite plastic deformation.
@@ -17,6 +17,7 @@ impl Published for WuLiThornton {
     const SUMMARY: &'static str = "restitution at finite plastic deformation, no force";
     const PAPERS: &'static [&'static str] = &["WuLiThornton2003"];
     const REFERENCE: &'static str = "Wu, Li and Thornton 2003, Int. J. Impact Eng. 28, 929";
+    const EVIDENCE: Evidence = Evidence::Checked;
     const FLOW: FlowConstants = YIELD_STRENGTH_ONLY;
     const RESTITUTION: Option<Restitution> = Some(restitution);
 }

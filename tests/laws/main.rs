@@ -9,6 +9,7 @@ mod law_guarantees;
 mod rebound_inertia;
 mod theory_command;
 mod theory_compare;
+mod theory_hardening;
 mod theory_properties;
 mod theory_rebound;
 mod theory_values;

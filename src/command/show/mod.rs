@@ -36,7 +36,7 @@ pub struct NamedLaw {
     pub law: AnyLaw,
 }
 
-/// The fitted law, then every theory that the material allows.
+/// The fitted law, then every theory that the material allows and comparisons show unasked.
 ///
 /// # Errors
 /// As [`LawFile::law`].
@@ -46,7 +46,7 @@ pub fn laws(file: &LawFile, material: &Material) -> Result<Vec<NamedLaw>> {
         role: Role::Law,
         law: AnyLaw::Fitted(file.law()?),
     }];
-    laws.extend(Theory::of(material).map(|theory| NamedLaw {
+    laws.extend(Theory::compared(material).map(|theory| NamedLaw {
         name: theory.name().to_owned(),
         role: Role::Theory(theory.place()),
         law: AnyLaw::Theory(theory, *material),

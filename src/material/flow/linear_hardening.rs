@@ -5,7 +5,7 @@ use crate::lanes::Lanes;
 use crate::material::constant::{Constant, Dimension, Range};
 
 /// Linear hardening modulus H.
-const HARDENING_MODULUS: Constant = Constant {
+pub const HARDENING_MODULUS: Constant = Constant {
     key: "hardening_modulus",
     symbol: "H",
     effect: "hardening",

@@ -10,6 +10,7 @@ mod written;
 
 pub(super) use declare::flow_stress;
 use declare::flow_stresses;
+pub use linear_hardening::HARDENING_MODULUS;
 pub use written::{FlowConstants, InSi, InText, Spelling, WithFlow};
 
 use super::constant::{Constant, Dimension, Range};
@@ -171,6 +172,14 @@ impl Flow {
         let values: Vec<f64> = values.into_iter().map(change).collect();
         let kind = Self::KINDS.iter().find(|kind| kind.name == name);
         kind.map_or(*self, |kind| (kind.of)(&values))
+    }
+
+    /// Value of a constant; `None` where it has none.
+    #[must_use]
+    pub fn value(&self, of: &Constant) -> Option<f64> {
+        let (_, constants, values) = self.parts();
+        let place = constants.iter().position(|constant| constant == of)?;
+        values.get(place).copied()
     }
 
     /// Constants of all kinds, each once, in the order of the list.
