@@ -88,7 +88,7 @@ pub trait NormalLaw: Clone + Send + Sync + 'static {
 /// Slowest impact that a law rests on: below it, down to the yield point, nobody has seen the law let go.
 ///
 /// What decides is where a contact turns, not how fast it came: force and rebound follow from the largest flattening $x_m$, and
-/// in an impact on a rigid plane speed and $x_m$ belong together, $\int_0^{x_m} \varphi\ dx = \tfrac23 \pi \varrho V^2$ for every
+/// in an impact on a rigid plane speed and $x_m$ belong together, $\int_0^{x_m} \varphi\ dx = \tfrac23 \pi \rho V^2$ for every
 /// radius. Two equal grains that meet at 2V, a grain that two others press, and a slow squeeze all have their $x_m$. First loading
 /// up to the slowest $x_m$ is supported, for every faster impact passed through it; the ways back are not. Up to the yield point the
 /// body is elastic and Hertz's law is exact.
