@@ -101,7 +101,7 @@ def main():
         value = lambda name: float(row[name])
         severity = value("density_kg_m3") * value("velocity_m_s") ** 2 / value("yield_strength_Pa")
         star = value("young_modulus_Pa") / (1 - value("poisson_ratio") ** 2)
-        # Johnson 1985 with a peak pressure of 1.6 Y: 4 pi^4 1.6^5/(5 * 2^4 * 2) rho-free
+        # first yield: Johnson 1985 with a peak pressure of 1.6 Y, rho V_y^2/Y = 25.5 (Y/E*)^4
         limit = 1.56052**2 * 1.6**5 * (value("yield_strength_Pa") / star) ** 4
         if severity <= limit or severity > given.where_severity * (1 + 1e-10):
             continue

@@ -1,6 +1,6 @@
 //! Formulas over dimensionless groups: sums, products, powers, exp, log and tanh of power products.
 //!
-//! The smallest piece is a power product of the groups with a coefficient, $c\ \Pi_1^{a_1} \Pi_2^{a_2} \dots$: products of powers
+//! The smallest piece is a power product of the groups with a coefficient, `c p1^a1 p2^a2 ...`: products of powers
 //! come before sums. What algebra makes equal is one shape: a product of two power products is one, a power of a power is one.
 
 pub use super::ratio::Ratio;

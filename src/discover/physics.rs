@@ -170,8 +170,8 @@ impl Places {
         None
     }
 
-    /// Balance of energies of two equations over all places: the work of plastic flow, $2 \bar\varepsilon_p Y/(\rho V^2)$ of the
-    /// incident energy without hardening, cannot be more than what is lost, $1 - e^2$. The largest excess as a plastic strain,
+    /// Balance of energies of two equations over all places: the work of plastic flow, 2 eps_p Y over rho V^2 of the
+    /// incident energy without hardening, cannot be more than what is lost, 1 - e^2. The largest excess as a plastic strain,
     /// which is to be compared with the error of the data.
     #[must_use]
     pub fn energy_excess(&self, strain: &Formula, restitution: &Formula) -> Option<f64> {

@@ -12,7 +12,7 @@ pub struct Published {
     pub formula: Formula,
 }
 
-/// Johnson's V_y as the thesis rounds it: $\rho V_y^2/Y = 26 (Y/E^\ast)^4$.
+/// Johnson's V_y as the thesis rounds it: rho V_y^2/Y = 26 (Y over E*)^4.
 const ROUNDED: f64 = 26.0;
 
 /// Places of E/Y and rho V^2/Y among the groups, which the equations are written in.
