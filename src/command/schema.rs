@@ -56,6 +56,7 @@ pub const FILES: [FileKind; 5] = [
     FileKind {
         name: "equations",
         about: "Written by `discover`, read by `predict`. SI units. The file says how its formulas are meant in its head.",
+        next: "impactlaw predict --equation FILE",
         kind: EquationsFile::keys,
     },
 ];
