@@ -152,7 +152,14 @@ fn best_split(
             let right = sum - left;
             let gain = left * left / below + right * right / (n - below) - sum * sum / n;
             if best.is_none_or(|b| gain > b.2 * (1.0 + 1e-12)) {
-                best = Some((column, 0.5 * (pair[0].0 + pair[1].0), gain));
+                // between neighbouring numbers there is no middle: the lower one keeps them apart
+                let middle = 0.5 * (pair[0].0 + pair[1].0);
+                let threshold = if middle < pair[1].0 {
+                    middle
+                } else {
+                    pair[0].0
+                };
+                best = Some((column, threshold, gain));
             }
         }
     }
@@ -178,6 +185,15 @@ mod tests {
         assert!((forest.predict(&[2.0, 5.0]) - 1.0).abs() < 1e-12);
         assert!((forest.predict(&[8.0, 5.0]) - 3.0).abs() < 1e-12);
         assert!(forest.importance()[0] > 0.999);
+    }
+
+    #[test]
+    fn numbers_that_differ_in_their_last_bit_are_kept_apart() {
+        let step = f64::EPSILON;
+        let column: Vec<f64> = (0..20).map(|i| 1.0 + f64::from(i % 2) * step).collect();
+        let targets: Vec<f64> = (0..20).map(|i| f64::from(i % 2)).collect();
+        let forest = Forest::grow(&[column], &targets, 10, 1);
+        assert!(forest.predict(&[1.0]) < 0.5 && forest.predict(&[1.0 + step]) > 0.5);
     }
 
     #[test]

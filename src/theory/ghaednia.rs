@@ -90,7 +90,8 @@ impl Ghaednia {
     /// a/R past the elastic range, and its derivative in x.
     fn radius(&self, x: f64) -> WithSlope {
         let elastic = x.sqrt();
-        let plastic = elastic * (x / (ELASTIC_TO * self.critical_flattening)).powf(0.5 * self.growth);
+        let plastic =
+            elastic * (x / (ELASTIC_TO * self.critical_flattening)).powf(0.5 * self.growth);
         let [elastic_rate, plastic_rate] =
             [0.5 * elastic / x, 0.5 * (1.0 + self.growth) * plastic / x];
         let exponent = 1.0 - (x - self.critical_flattening);

@@ -1,6 +1,6 @@
 //! Hertz: the elastic sphere on a rigid plane.
 
-use super::published::{Evidence, ELASTIC, FlowConstants, Published, PublishedLaw, Restitution};
+use super::published::{ELASTIC, Evidence, FlowConstants, Published, PublishedLaw, Restitution};
 use crate::contact::{NormalLaw, State};
 use crate::material::Material;
 

@@ -1,7 +1,9 @@
 //! Luding: linear springs whose unloading stiffens with the largest overlap up to a limit branch.
 
 use super::envelope::{Envelope, Unloading};
-use super::published::{Evidence, FlowConstants, Published, PublishedLaw, Restitution, YIELD_STRENGTH_ONLY};
+use super::published::{
+    Evidence, FlowConstants, Published, PublishedLaw, Restitution, YIELD_STRENGTH_ONLY,
+};
 use super::spring::Springs;
 use crate::material::Material;
 

@@ -1,6 +1,8 @@
 //! Zunker and Kamrin: the method of dimensionality reduction (MDR) for an elastic-perfectly plastic sphere on one flat.
 
-use super::published::{Evidence, FlowConstants, Published, PublishedLaw, Restitution, YIELD_STRENGTH_ONLY};
+use super::published::{
+    Evidence, FlowConstants, Published, PublishedLaw, Restitution, YIELD_STRENGTH_ONLY,
+};
 use crate::contact::NormalLaw;
 use crate::material::Material;
 use crate::material::stress::Moduli;

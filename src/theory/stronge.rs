@@ -66,9 +66,11 @@ impl Stronge {
 
 impl Published for Stronge {
     const NAME: &'static str = "stronge";
-    const SUMMARY: &'static str = "pressure of an expanding cavity; unverified, compared on request";
+    const SUMMARY: &'static str =
+        "pressure of an expanding cavity; unverified, compared on request";
     const PAPERS: &'static [&'static str] = &["Stronge2000"];
-    const REFERENCE: &'static str = "Stronge 2000, Impact Mechanics, chapter 6 (from memory, unverified)";
+    const REFERENCE: &'static str =
+        "Stronge 2000, Impact Mechanics, chapter 6 (from memory, unverified)";
     const EVIDENCE: Evidence = Evidence::Unverified;
     const FLOW: FlowConstants = YIELD_STRENGTH_ONLY;
     const RESTITUTION: Option<Restitution> = None;

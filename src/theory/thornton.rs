@@ -2,7 +2,9 @@
 
 use super::envelope::{Envelope, Unloading};
 use super::hertz::Hertz;
-use super::published::{Evidence, FlowConstants, Published, PublishedLaw, Restitution, YIELD_STRENGTH_ONLY};
+use super::published::{
+    Evidence, FlowConstants, Published, PublishedLaw, Restitution, YIELD_STRENGTH_ONLY,
+};
 use crate::material::{Material, YIELD_PRESSURE_RATIO};
 use std::f64::consts::PI;
 

@@ -1,7 +1,9 @@
 //! Walton and Braun: a linear spring in loading and a stiffer one in unloading.
 
 use super::envelope::{Envelope, Unloading};
-use super::published::{Evidence, FlowConstants, Published, PublishedLaw, Restitution, YIELD_STRENGTH_ONLY};
+use super::published::{
+    Evidence, FlowConstants, Published, PublishedLaw, Restitution, YIELD_STRENGTH_ONLY,
+};
 use super::spring::Springs;
 use crate::material::Material;
 
