@@ -49,7 +49,7 @@ pub struct DiscoverArgs {
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
     /// Largest structure that is enumerated, in nodes; the time grows about fourfold with each.
-    #[arg(long, default_value_t = 5, value_parser = clap::value_parser!(u8).range(1..=9))]
+    #[arg(long, default_value_t = 4, value_parser = clap::value_parser!(u8).range(1..=9))]
     pub size: u8,
     /// Rounds in which the best structures are grown beyond that size.
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u8).range(0..=4))]
@@ -161,7 +161,9 @@ impl Study {
             let speed = table
                 .input("velocity_m_s")
                 .map_or(Vec::new(), |c| c.values.clone());
-            let plastic = |row: &usize| speed.get(*row).is_some_and(|v| *v > column.values[*row]);
+            // what has no speed of first yield stays, to be refused for its reason
+            let elastic = |row: &usize| speed.get(*row).is_some_and(|v| *v <= column.values[*row]);
+            let plastic = |row: &usize| !elastic(row);
             let rows: Vec<usize> = (0..table.rows()).filter(plastic).collect();
             table.inputs.retain(|column| column.name != YIELD_SPEED);
             table.inputs.push(column);

@@ -1,10 +1,10 @@
 //! `export`: a law file to the files of other codes, and the check that they hold the same law.
 
 use super::{Command, Context, Verdict, output_folder, print};
-use crate::export::Target;
 use crate::export::check::{self, Finding};
 use crate::export::source::artifact::Artifact;
 use crate::export::source::portable::Portable;
+use crate::export::{Target, checks};
 use crate::files::write_atomic;
 use crate::law::Form;
 use crate::unit::engineering;
@@ -181,7 +181,7 @@ fn check_targets(law: &Portable, targets: &[Target], context: &Context) -> Resul
         [] => &Target::ALL,
         targets => targets,
     };
-    let checks: Vec<_> = targets.iter().flat_map(|t| check::of(*t)).collect();
+    let checks: Vec<_> = targets.iter().flat_map(|t| checks(*t)).collect();
     if checks.is_empty() {
         tracing::warn!("no program reads a table: there is nothing to check");
     }

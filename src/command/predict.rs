@@ -33,8 +33,8 @@ const ROUNDING: f64 = 1e-6;
 
 impl Command for PredictArgs {
     const EXAMPLES: &'static [&'static str] = &[
-        "impactlaw predict cases/thesis-4-4.toml --equation models/equations.toml",
-        r#"impactlaw predict cases/thesis-4-4.toml --equation models/equations.toml --velocity "20 m/s" --target restitution"#,
+        "impactlaw predict cases/thesis-4-4.toml --equation out/study-480/discover/equations.toml",
+        r#"impactlaw predict cases/thesis-4-4.toml --equation out/study-480/discover/equations.toml --velocity "20 m/s" --target restitution"#,
     ];
 
     /// Print the figures as CSV.

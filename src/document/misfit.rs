@@ -3,7 +3,8 @@
 use super::keys::{Kind, Table};
 use toml::de::{DeTable, DeValue};
 
-/// Number of places in `value` that `kind` does not take: unknown and missing keys, values of another type.
+/// Number of places in `value` that `kind` does not take: unknown keys and values of another
+/// type. What is missing is no sign: a slip in a key is one more key missing.
 #[must_use]
 pub fn misfits(kind: &Kind, value: &DeValue) -> usize {
     match (kind, value) {
@@ -49,15 +50,12 @@ pub fn misfits(kind: &Kind, value: &DeValue) -> usize {
 
 /// The same within a table in which `tag`, if it is not empty, chose the keys.
 fn in_table(table: &Table, entries: &DeTable, tag: &str) -> usize {
-    let within: usize = entries
+    entries
         .iter()
         .filter(|(name, _)| name.get_ref() != tag)
         .map(|(name, value)| match table.key(name.get_ref()) {
             Some(key) => misfits(&key.kind, value.get_ref()),
             None => 1,
         })
-        .sum();
-    let required = table.keys.iter().filter(|key| key.line.default.is_none());
-    let missing = required.filter(|key| entries.get(key.name.as_str()).is_none());
-    within + missing.count()
+        .sum()
 }

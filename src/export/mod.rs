@@ -16,6 +16,8 @@ pub mod native;
 pub mod scene;
 pub mod table;
 
+use self::check::{Check, CompilerCheck, NativeCheck, ShimCheck};
+use self::native::Code;
 use self::source::artifact::Artifact;
 use self::source::dialect::{Dialect, PairExport};
 use self::source::portable::Portable;
@@ -75,6 +77,24 @@ targets! {
     Native => native::Native,
     Deme => deme::Deme,
     MercuryDpm => mercurydpm::MercuryDpm,
+}
+
+/// What proves a target where its code is installed; nothing runs a table.
+#[must_use]
+pub fn checks(target: Target) -> Vec<Box<dyn Check>> {
+    match target {
+        Target::C => vec![Box::new(CompilerCheck)],
+        Target::Native => vec![
+            Box::new(NativeCheck(Code::Liggghts)),
+            Box::new(NativeCheck(Code::Lammps)),
+            Box::new(NativeCheck(Code::Yade)),
+        ],
+        Target::Liggghts => vec![Box::new(check::liggghts::LiggghtsCheck)],
+        Target::Lammps => vec![Box::new(check::lammps::LammpsCheck)],
+        Target::Deme => vec![Box::new(ShimCheck::Deme)],
+        Target::MercuryDpm => vec![Box::new(ShimCheck::MercuryDpm)],
+        Target::Table => Vec::new(),
+    }
 }
 
 impl std::fmt::Display for Target {

@@ -23,8 +23,8 @@ const SUPPORTED_TO: f64 = 0.5;
 /// $$ F = F_p + (F_H - F_p) \left(1 - e^{-3.3 E_t/E}\right), \qquad
 ///    \frac{F_p}{P_c} = e^{-\frac14 w^{5/12}} w^{3/2} + \frac{4 H}{C Y}\left[1 - e^{-\frac1{25} w^{5/9}}\right] w $$
 /// $$ \frac{H}{Y} = 2.84 - 0.92 \left(1 - \cos\frac{\pi a}{R}\right), \qquad
-///    a = a_H + (a_p - a_H) e^{\Upsilon}, \quad a_H^2 = R \delta, \quad a_p^2 = R \delta \left(\frac{w}{1.9}\right)^B $$
-/// $$ \Upsilon = -2 \sqrt{\frac EY}\ \frac{(E_t/E)^{1 - (\delta - \delta_c)/R}}
+///    a = a_H + (a_p - a_H) e^{u}, \quad a_H^2 = R \delta, \quad a_p^2 = R \delta \left(\frac{w}{1.9}\right)^B $$
+/// $$ u = -2 \sqrt{\frac EY}\ \frac{(E_t/E)^{1 - (\delta - \delta_c)/R}}
 ///    {\left(4 - 3 e^{-2 \sqrt{E/Y}\ E_t/E}\right) (1 - E_t/E)} $$
 /// $$ \text{unloading:}\quad F = F_m \left(\frac{\delta - \delta_r}{\delta_m - \delta_r}\right)^{3/2}, \quad
 ///    \frac{\delta_r}{\delta_m} = 1 - \frac{F_m}{\tfrac43 E^\ast \sqrt R\ \delta_m^{3/2}} $$
@@ -38,7 +38,7 @@ const SUPPORTED_TO: f64 = 0.5;
 ///
 /// Source: loading Ghaednia, Brake, Berryhill and Jackson 2019, J. Tribol., equations 5 to 30; unloading Brake 2015,
 /// Int. J. Solids Struct. 62, 104. Both seen in two codes that do not depend on each other, not in the papers. The exponent
-/// $\Upsilon$ is the one of these codes, whose author had it from those of the paper: the printed one is wrong.
+/// $u$ is the one of these codes, whose author had it from those of the paper: the printed one is wrong.
 ///
 /// **Against finite elements** of hardening spheres its force is 7 to 25 % too high for $\delta/R$ of 0.01 to 0.05
 /// (`tests/laws/theory_hardening.rs`; a theory without hardening is 14 to 33 % too low); for perfect plasticity it is Jackson
@@ -54,7 +54,7 @@ pub struct Ghaednia {
     critical_force: f64,
     /// $E_t/E$.
     tangent: f64,
-    /// $\Upsilon (E_t/E)^{-1 + (\delta - \delta_c)/R}$.
+    /// $u (E_t/E)^{-1 + (\delta - \delta_c)/R}$.
     narrowing: f64,
     /// Share $1 - e^{-3.3 E_t/E}$ of the elastic force.
     elastic_share: f64,

@@ -17,8 +17,6 @@ pub use process::{Ran, find_program, run};
 pub use shim::ShimCheck;
 
 use crate::Result;
-use crate::export::Target;
-use crate::export::native::Code;
 use crate::export::source::portable::Portable;
 use std::fmt::Write;
 use std::path::Path;
@@ -69,24 +67,6 @@ pub trait Check {
     /// # Errors
     /// Those of writing and running files; a code that is not installed is [`Finding::Skipped`], not an error.
     fn run(&self, law: &Portable, scratch: &Path) -> Result<Finding>;
-}
-
-/// What proves a target; nothing runs a table.
-#[must_use]
-pub fn of(target: Target) -> Vec<Box<dyn Check>> {
-    match target {
-        Target::C => vec![Box::new(CompilerCheck)],
-        Target::Native => vec![
-            Box::new(NativeCheck(Code::Liggghts)),
-            Box::new(NativeCheck(Code::Lammps)),
-            Box::new(NativeCheck(Code::Yade)),
-        ],
-        Target::Liggghts => vec![Box::new(liggghts::LiggghtsCheck)],
-        Target::Lammps => vec![Box::new(lammps::LammpsCheck)],
-        Target::Deme => vec![Box::new(ShimCheck::Deme)],
-        Target::MercuryDpm => vec![Box::new(ShimCheck::MercuryDpm)],
-        Target::Table => Vec::new(),
-    }
 }
 
 /// Largest of some deviations; NaN if one of them is, so that nothing undefined passes for agreement.
