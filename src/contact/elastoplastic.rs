@@ -144,7 +144,7 @@ impl<L: Loading> Elastoplastic<L> {
                 false => high = middle,
             }
         }
-        self.slowest = gap.then(|| Slowest {
+        self.slowest = gap.then_some(Slowest {
             velocity,
             flattening: low * self.units.flattening,
             yields_at: self.units.flattening,

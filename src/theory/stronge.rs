@@ -7,7 +7,7 @@ use super::published::{
 };
 use crate::material::Material;
 
-/// Mean pressure at first yield over Y, $\vartheta$.
+/// Mean pressure at first yield over Y, $\theta$.
 const YIELD_PRESSURE: f64 = 1.1;
 /// Peak pressure of Hertz over the mean one.
 const PEAK_OVER_MEAN: f64 = 1.5;
@@ -18,18 +18,18 @@ const FULL_FROM: f64 = 84.0;
 
 /// Elastic-perfectly plastic sphere with the mean pressure of an expanding cavity.
 ///
-/// With $w = \delta/\delta_Y$, $u = 2w - 1$, $\vartheta = 1.1$:
+/// With $w = \delta/\delta_Y$, $u = 2w - 1$, $\theta = 1.1$:
 ///
-/// $$ \delta_Y = \left(\frac{3\pi \vartheta Y}{4 E^\ast}\right)^2 R, \qquad F_Y = \pi R \delta_Y \vartheta Y $$
+/// $$ \delta_Y = \left(\frac{3\pi \theta Y}{4 E^\ast}\right)^2 R, \qquad F_Y = \pi R \delta_Y \theta Y $$
 /// $$ w \le 1:\ \text{Hertz}; \qquad
-///    w \le 84:\ \frac{F}{F_Y} = u \left(1 + \frac{\ln u}{3 \vartheta}\right); \qquad
-///    w > 84:\ \frac{F}{F_Y} = \frac{2.8}{\vartheta} u; \qquad \frac{a^2}{R \delta_Y} = u $$
+///    w \le 84:\ \frac{F}{F_Y} = u \left(1 + \frac{\ln u}{3 \theta}\right); \qquad
+///    w > 84:\ \frac{F}{F_Y} = \frac{2.8}{\theta} u; \qquad \frac{a^2}{R \delta_Y} = u $$
 /// $$ \text{unloading:}\quad F = F_Y u_m \left(\frac{\delta - \delta_r}{\delta_m - \delta_r}\right)^{3/2}, \qquad
 ///    \delta_m - \delta_r = \delta_Y \sqrt{u_m} $$
 ///
 /// Source: Stronge 2000, Impact Mechanics, chapter 6: **from memory**. That the two plastic branches meet at w = 84 within 0.2 % speaks
 /// for the loading; nothing else does. As it stands the slope jumps by 1.74 at yield, the force lies above Hertz by up
-/// to 44 % (w = 2.6), and at reversal it drops to $1/(1 + \ln u/(3\vartheta))$ of what it was; e is up to 1.012 just above yield.
+/// to 44 % (w = 2.6), and at reversal it drops to $1/(1 + \ln u/(3\theta))$ of what it was; e is up to 1.012 just above yield.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stronge {
     elastic: Hertz,
