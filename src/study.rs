@@ -264,8 +264,8 @@ tolerance = 0.02
             let error = read(TEXT.replace("20 m/s", speed));
             assert!(error.contains("`impact.velocities[1]`"), "{error}");
         }
-        let many = vec!["\"1 m/s\""; 30_000].join(", ");
-        let error = read(TEXT.replace("\"20 m/s\"", &many));
+        let many: Vec<String> = (1..=30_000).map(|i| format!("\"{i} um/s\"")).collect();
+        let error = read(TEXT.replace("\"20 m/s\"", &many.join(", ")));
         assert!(
             error.contains("`impact.velocities`") && error.contains("100000 cases"),
             "{error}"

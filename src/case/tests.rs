@@ -231,13 +231,13 @@ const SLIPS: [(&str, &str, &str, &str); 13] = [
         "\"1.25 GPa\"",
         "\"125 kPa\"",
         "material.yield_strength",
-        "E/Y = 8e5 is more than any solid's",
+        "E/Y = 800000 is more than any solid's",
     ),
     (
         "\"2 GPa\"",
         "\"2 kPa\"",
         "material.hardening_modulus",
-        "it is 1.6e-6 of yield_strength",
+        "of yield_strength, which changes nothing; 0 is none",
     ),
 ];
 
