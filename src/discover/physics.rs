@@ -49,7 +49,7 @@ impl Rules {
 /// Places where formulas are looked at: every material of the data, from first yield to its largest speed; and at first yield.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Places {
-    /// [`PLACES`] rows a material.
+    /// `PLACES` rows a material.
     pub along: Columns,
     /// One row a material: first yield itself.
     pub limit: Option<Columns>,

@@ -67,7 +67,7 @@ impl Split {
         }
     }
 
-    /// Whole materials, in [`PARTS`] parts, by the number of the material of each case. A run that stands for cases of several
+    /// Whole materials, in `PARTS` parts, by the number of the material of each case. A run that stands for cases of several
     /// materials is left out with each of them.
     #[must_use]
     pub fn materials(runs: &Runs, material: &[usize]) -> Self {
