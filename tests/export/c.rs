@@ -220,7 +220,9 @@ fn the_table_gives_the_law_back() {
     let model = models()[0].display().to_string();
     let output = program::impactlaw(folder.path(), &["export", &model, "--to", "table"]);
     assert_eq!(output.status.code(), Some(0));
-    let path = folder.path().join("out/thesis-4-4/export/thesis_4_4.csv");
+    let path = folder
+        .path()
+        .join("out/thesis-4-4/export/table/thesis_4_4.csv");
     let text = std::fs::read_to_string(path).unwrap();
     let law = LawFile::read(&models()[0]).unwrap().law().unwrap();
     let mut reader = csv::ReaderBuilder::new()
