@@ -211,8 +211,8 @@ const MISMATCH: f64 = 1e-9;
 /// Newton step over the overlap at which the search ends where one side carries nothing: the bodies have lost contact, and the
 /// other side would come to nothing only in the limit.
 const SLIGHT: f64 = 1e-13;
-/// Iterations of the safeguarded Newton search; bisection alone ends within this many halvings of a `f64` interval.
-const MAX_SEARCH: usize = 64;
+/// Iterations of the safeguarded Newton search: in each the mismatch or the bracket is halved.
+const MAX_SEARCH: usize = 128;
 
 /// One side of a contact between two materials, at a trial flattening.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -235,6 +235,7 @@ pub fn balance(
     let (mut low, mut high) = (0.0, overlap);
     let mut at = guess;
     let mut sides = [first(at), second(overlap - at)];
+    let mut before = f64::INFINITY;
     for _ in 0..MAX_SEARCH {
         let [a, b] = sides;
         let excess = a.force - b.force;
@@ -251,11 +252,14 @@ pub fn balance(
             break;
         }
         let newton = at - step;
-        let next = if newton > low && newton < high {
+        // at a kink Newton can creep on inside the bracket for ever
+        let gains = excess.abs() <= 0.5 * before;
+        let next = if gains && newton > low && newton < high {
             newton
         } else {
             0.5 * (low + high)
         };
+        before = excess.abs();
         if next == at {
             break;
         }

@@ -12,8 +12,8 @@ typedef struct {
 #define LAW_MISMATCH 1e-9
 /* Newton step over the overlap at which it ends where one side carries nothing: the bodies have lost contact. */
 #define LAW_SLIGHT 1e-13
-/* Most steps of the search: bisection alone ends within this many halvings. */
-#define LAW_MOST_STEPS 64
+/* Most steps of the search: in each the mismatch or the bracket is halved. */
+#define LAW_MOST_STEPS 128
 
 /* Reset: call it when the bodies no longer overlap (overlap <= 0). */
 FIRST_FUNCTION void law_forget(law_sides *sides)
@@ -51,7 +51,7 @@ FIRST_FUNCTION double law_balance(double overlap, const double *radii, const law
 {
     /* a virgin contact begins with Hertz's share */
     double share = sides->share > 0.0 ? sides->share : 1.0 / (1.0 + LAW_MODULUS_1 / LAW_MODULUS_2);
-    double taken = share * overlap, low = 0.0, high = overlap;
+    double taken = share * overlap, low = 0.0, high = overlap, before = HUGE_VAL;
     int step;
     law_trial(taken, overlap, radii, sides, force, stiffness);
     for (step = 0; step < LAW_MOST_STEPS; step++) {
@@ -66,8 +66,10 @@ FIRST_FUNCTION double law_balance(double overlap, const double *radii, const law
         if ((force[0] == 0.0 || force[1] == 0.0) && fabs(newton) <= LAW_SLIGHT * overlap)
             break;
         next = taken - newton;
-        if (!(next > low && next < high))
+        /* at a kink Newton can creep on inside the bracket for ever */
+        if (!(next > low && next < high) || fabs(excess) > 0.5 * before)
             next = 0.5 * (low + high);
+        before = fabs(excess);
         if (next == taken)
             break;
         taken = next;
