@@ -99,7 +99,7 @@ const SYMBOLS: [(&str, &str); 9] = [
     ),
     (
         "F*, δ*",
-        "largest force, averaged over 2 % of the contact time; largest displacement",
+        "largest force, averaged over 2 % of the contact time, of flattened bodies over the crossing of a cell; largest displacement",
     ),
     (
         "δ_res, t_c",
@@ -254,7 +254,7 @@ impl RunPage<'_> {
                  theories that come nearest over all speeds; the others stand in the tables of laws compared. Curves that \
                  leave the frame are cut. The simulated force climbs in small teeth: the contact grows from cell to cell of \
                  the grid, and in fast impacts waves cross the particle. Finer cells make the teeth smaller; F* is a mean \
-                 over 2 % of the contact time, so that a single tooth does not count."
+                 over part of the contact time, so that a single tooth does not count."
             }
         };
         let symbols = match self.impacts.is_empty() {
