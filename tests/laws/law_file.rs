@@ -9,6 +9,7 @@ use impactlaw::material::flow::FlowConstants;
 use impactlaw::material::{Flow, YIELD_PRESSURE_RATIO};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
+use sha2::{Digest, Sha256};
 
 fn quality(velocity_m_s: f64) -> QualityRow {
     QualityRow {
@@ -326,4 +327,29 @@ fn numbers_that_contradict_the_material_are_refused() {
         "displacement_over_radius_max = inf",
         &["found inf"],
     );
+}
+
+#[test]
+fn every_published_model_names_the_case_that_is_shipped() {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut models = 0;
+    for entry in std::fs::read_dir(root.join("models")).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_none_or(|kind| kind != "toml") {
+            continue;
+        }
+        let file = LawFile::read(&path).unwrap();
+        let case = root.join(format!("cases/{}.toml", file.provenance.case));
+        let sum = Sha256::digest(std::fs::read(&case).unwrap());
+        let hash: String = sum.iter().map(|byte| format!("{byte:02x}")).collect();
+        let path = path.display();
+        assert_eq!(
+            file.provenance.case_sha256,
+            hash,
+            "{path}: run {} again",
+            case.display()
+        );
+        models += 1;
+    }
+    assert!(models >= 2);
 }
