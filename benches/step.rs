@@ -2,7 +2,7 @@
 //! quadratic in three dimensions.
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use impactlaw::impact::kernel::Purpose;
+use impactlaw::impact::kernel::{Purpose, made_of};
 use impactlaw::impact::model::build;
 use impactlaw::impact::model::solid;
 use impactlaw::impact::model::solid::Mesh;
@@ -34,7 +34,12 @@ fn sweep<M: Constitutive<Axisymmetric>, const P: usize, const N: usize>(
     name: &str,
     material: M,
 ) {
-    let mut model = build::<M, P, N>(&grid(P), impactlaw::scheme::Layout::Fitted, material, 1e-9);
+    let mut model = build::<P, N>(
+        &grid(P),
+        impactlaw::scheme::Layout::Fitted,
+        made_of(material),
+        1e-9,
+    );
     let nodes = model.mass.len();
     let u: Vec<[f64; 2]> = (0..nodes)
         .map(|n| [0.0, 1e-3 * (0.1 * n as f64).sin()])
@@ -59,7 +64,7 @@ fn solid_sweep<M: Constitutive<Solid>>(c: &mut Criterion, name: &str, material: 
         layout: impactlaw::scheme::Layout::Fitted,
         geometry: Geometry::Quarter,
     };
-    let mut model = solid::build::<_, _, 2, 27>(mesh, material, Frictionless, 1e-9);
+    let mut model = solid::build::<_, 2, 27>(mesh, made_of(material), Frictionless, 1e-9);
     let nodes = model.mass.len();
     let u: Vec<[f64; 3]> = (0..nodes)
         .map(|n| [0.0, 0.0, 1e-3 * (0.1 * n as f64).sin()])

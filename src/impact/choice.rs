@@ -1,5 +1,6 @@
 //! Choice: flow stress, degree and scheme of a plan become concrete types once, before the loop.
 
+use crate::impact::kernel::{Matter, made_of};
 use crate::impact::model::solid::{self, Mesh};
 use crate::impact::model::{self, Model};
 use crate::impact::run::record::Record;
@@ -45,15 +46,34 @@ impl FlowVisitor for Plastic<'_> {
     type Output = Vec<Record>;
     fn visit<F: FlowStress>(self, flow: F) -> Vec<Record> {
         let moduli = self.moduli;
-        run_geometry(J2 { moduli, flow }, self.job)
+        run(J2 { moduli, flow }, self.job)
     }
 }
 
-/// The space, and in three dimensions the friction, that the plan calls for.
-pub(in crate::impact) fn run_geometry<M: Constitutive<Axisymmetric> + Constitutive<Solid>>(
-    material: M,
-    job: &Job,
-) -> Vec<Record> {
+/// The space and the reference that the plan calls for.
+pub(in crate::impact) fn run<M>(material: M, job: &Job) -> Vec<Record>
+where
+    M: Constitutive<Axisymmetric> + Constitutive<Solid>,
+{
+    let present = job.plan.scheme.reference == Reference::Present;
+    match (job.plan.geometry, present) {
+        (Geometry::Axisymmetric, true) => vec![run_present(material, job.plan, job.speed)],
+        (Geometry::Axisymmetric, false) => run_section(made_of(material), job),
+        _ => run_solid(made_of(material), job),
+    }
+}
+
+/// The deformed body as reference: the spline degree that the plan calls for.
+fn run_present<M: Constitutive<Axisymmetric>>(material: M, plan: &Plan, speed: f64) -> Record {
+    match plan.laid().degree {
+        1 => Updated::<M, 1, 4>::new(plan, material, speed).finish(),
+        2 => Updated::<M, 2, 9>::new(plan, material, speed).finish(),
+        _ => Updated::<M, 3, 16>::new(plan, material, speed).finish(),
+    }
+}
+
+/// Three dimensions: the spline degree, or the friction, that the plan calls for.
+fn run_solid(matter: Box<dyn Matter<Solid>>, job: &Job) -> Vec<Record> {
     let &Job { plan, speed, .. } = job;
     let tolerance = CONTACT_TOLERANCE * speed * plan.angle.cos();
     let mesh = Mesh {
@@ -61,72 +81,47 @@ pub(in crate::impact) fn run_geometry<M: Constitutive<Axisymmetric> + Constituti
         layout: plan.scheme.layout,
         geometry: plan.geometry,
     };
-    if plan.geometry == Geometry::Axisymmetric {
-        run_section(material, job)
-    } else if plan.friction > 0.0 {
+    if plan.friction > 0.0 {
         let friction = Coulomb {
             coefficient: plan.friction,
             memory: MEMORY * plan.estimate.contact_time,
         };
-        let model = solid::build::<_, _, 2, 27>(mesh, material, friction, tolerance);
-        Run::new(model, (), plan, speed).finish(job.keeper())
-    } else {
-        run_solid(mesh, material, job)
+        let model = solid::build::<_, 2, 27>(mesh, matter, friction, tolerance);
+        return Run::new(model, (), plan, speed).finish(job.keeper());
     }
-}
-
-/// Three dimensions without friction: the spline degree that the plan calls for.
-fn run_solid<M: Constitutive<Solid>>(mesh: Mesh, material: M, job: &Job) -> Vec<Record> {
-    let tolerance = CONTACT_TOLERANCE * job.speed * job.plan.angle.cos();
+    let smooth = Frictionless;
     match mesh.grid.degree {
         1 => run_transfer(
-            solid::build::<_, _, 1, 8>(mesh, material, Frictionless, tolerance),
+            solid::build::<_, 1, 8>(mesh, matter, smooth, tolerance),
             job,
         ),
         2 => run_transfer(
-            solid::build::<_, _, 2, 27>(mesh, material, Frictionless, tolerance),
+            solid::build::<_, 2, 27>(mesh, matter, smooth, tolerance),
             job,
         ),
         _ => run_transfer(
-            solid::build::<_, _, 3, 64>(mesh, material, Frictionless, tolerance),
+            solid::build::<_, 3, 64>(mesh, matter, smooth, tolerance),
             job,
         ),
     }
 }
 
 /// The section: the spline degree that the plan calls for.
-fn run_section<M: Constitutive<Axisymmetric>>(material: M, job: &Job) -> Vec<Record> {
+fn run_section(matter: Box<dyn Matter<Axisymmetric>>, job: &Job) -> Vec<Record> {
     let &Job { plan, speed, .. } = job;
     let (grid, layout) = (&plan.laid(), plan.scheme.layout);
-    if plan.scheme.reference == Reference::Present {
-        return match grid.degree {
-            1 => vec![Updated::<M, 1, 4>::new(plan, material, speed).finish()],
-            2 => vec![Updated::<M, 2, 9>::new(plan, material, speed).finish()],
-            _ => vec![Updated::<M, 3, 16>::new(plan, material, speed).finish()],
-        };
-    }
     let tolerance = CONTACT_TOLERANCE * speed;
     match grid.degree {
-        1 => run_transfer(
-            model::build::<M, 1, 4>(grid, layout, material, tolerance),
-            job,
-        ),
-        2 => run_transfer(
-            model::build::<M, 2, 9>(grid, layout, material, tolerance),
-            job,
-        ),
-        _ => run_transfer(
-            model::build::<M, 3, 16>(grid, layout, material, tolerance),
-            job,
-        ),
+        1 => run_transfer(model::build::<1, 4>(grid, layout, matter, tolerance), job),
+        2 => run_transfer(model::build::<2, 9>(grid, layout, matter, tolerance), job),
+        _ => run_transfer(model::build::<3, 16>(grid, layout, matter, tolerance), job),
     }
 }
 
 /// The transfer of velocity that the plan calls for.
-fn run_transfer<S, M, W, const N: usize>(model: Model<S, M, W, N>, job: &Job) -> Vec<Record>
+fn run_transfer<S, W, const N: usize>(model: Model<S, W, N>, job: &Job) -> Vec<Record>
 where
     S: Space,
-    M: Constitutive<S>,
     W: Wall<S>,
 {
     let &Job { plan, speed, .. } = job;

@@ -93,7 +93,7 @@ fn attempt(
         checkpoint: checkpoint.map(|c| (c, description(material, radius, plan))),
     };
     match material.flow.filter(|_| plan.plastic) {
-        None => choice::run_geometry(Elastic { moduli }, job),
+        None => choice::run(Elastic { moduli }, job),
         Some(flow) => flow.in_reference(&units).visit(Plastic { moduli, job }),
     }
 }

@@ -131,7 +131,7 @@ impl<C: ContactLaw> Situation<'_, C> {
         patches: &mut [Patch<C::Memory>],
         task: &mut Task,
     ) {
-        let [grain, surface] = pair.map(|index| index as usize);
+        let (grain, surface) = (pair[0] as usize, pair[1] as usize);
         let unit = self.machine.unit;
         let body = &self.machine.surfaces[surface];
         let place = |task: &mut Task,
@@ -181,7 +181,7 @@ impl<C: ContactLaw> Situation<'_, C> {
         histories: &mut dyn Histories,
         at: usize,
     ) -> Losses {
-        let [grain, surface] = pair.map(|index| index as usize);
+        let (grain, surface) = (pair[0] as usize, pair[1] as usize);
         let sphere = &self.grains.spheres[grain];
         let motion = &self.grains.motions[grain];
         let body = &self.machine.stations[surface];
@@ -378,7 +378,8 @@ impl<C: ContactLaw, const K: usize> Family<C, K> {
             }
         }
         let materials = |at: usize| {
-            let [grain, surface] = candidates[at / K].map(|index| index as usize);
+            let [grain, surface] = candidates[at / K];
+            let (grain, surface) = (grain as usize, surface as usize);
             [grains.material(grain), surfaces[surface].unwrap_or(RIGID)]
         };
         self.histories = model.chunks(&self.histories, &from, CHUNK * K, &materials);
@@ -444,7 +445,8 @@ impl<C: ContactLaw, const K: usize> Family<C, K> {
 
     pub(in crate::dem) fn all(&self) -> impl Iterator<Item = Held<'_, C::Memory>> {
         self.patches.iter().enumerate().map(|(at, patch)| {
-            let [grain, surface] = self.candidates[at / K].map(|index| index as usize);
+            let [grain, surface] = self.candidates[at / K];
+            let (grain, surface) = (grain as usize, surface as usize);
             let history = (&*self.histories[at / (CHUNK * K)], at % (CHUNK * K));
             Held {
                 grain,

@@ -159,7 +159,7 @@ impl<C: ContactLaw> Chunk<'_, C> {
         let open = self.images.is_empty();
         let last = (first + BLOCK).min(self.pairs.len());
         for at in first..last {
-            let [a, b] = self.pairs[at].map(|grain| &grains.spheres[grain as usize]);
+            let [a, b] = grains.both(self.pairs[at]);
             let (mut line, reach) = (a.centre - b.centre, a.radius + b.radius);
             if !open {
                 line += self.shifts[self.images[at] as usize];
@@ -191,7 +191,7 @@ impl<C: ContactLaw> Chunk<'_, C> {
             let pair = self.pairs[at];
             let squeeze = Squeeze {
                 overlap: 0.0,
-                radii: pair.map(|grain| grains.spheres[grain as usize].radius),
+                radii: grains.radii(pair),
             };
             let flowed = law.softening() * self.histories.dissipated(at, squeeze.radii);
             C::book_flow(&mut self.memory[at], flowed);
@@ -219,7 +219,7 @@ impl<C: ContactLaw> Chunk<'_, C> {
             pressing.inverse_distances[k] = 1.0 / distance;
             pressing.squeezes[k] = Squeeze {
                 overlap: near.reach - distance,
-                radii: [i, j].map(|grain| grains.spheres[grain as usize].radius),
+                radii: grains.radii([i, j]),
             };
         }
         let count = touching.len();
@@ -308,7 +308,7 @@ impl<C: ContactLaw> Contacts<C> {
         let list = HalfList::within(&grains.room, &grains.spheres, skin);
         for (at, &pair) in self.list.pairs.iter().enumerate() {
             if list.find(pair).is_none() {
-                let radii = pair.map(|grain| grains.spheres[grain as usize].radius);
+                let radii = grains.radii(pair);
                 let flowed = self.flowed(at, radii, softening);
                 pair.iter()
                     .for_each(|&grain| grains.plastic[grain as usize] += 0.5 * flowed);
@@ -370,7 +370,9 @@ impl<C: ContactLaw> Contacts<C> {
     #[inline(always)]
     #[must_use]
     pub fn line(&self, index: usize, grains: &Grains) -> Vector {
-        let [a, b] = self.list.pairs[index].map(|grain| grains.spheres[grain as usize].centre);
+        let [a, b] = grains
+            .both(self.list.pairs[index])
+            .map(|sphere| sphere.centre);
         match self.list.images.get(index) {
             None => a - b,
             Some(&image) => a - b + grains.room.shift(image),

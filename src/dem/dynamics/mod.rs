@@ -366,8 +366,7 @@ impl<C: ContactLaw> Bed<C> {
     /// A listed pair as its normal law sees it; the overlap is negative if it is apart.
     #[must_use]
     pub fn squeeze_of(&self, pair: usize) -> Squeeze {
-        let radii =
-            self.contacts.list.pairs[pair].map(|grain| self.grains.spheres[grain as usize].radius);
+        let radii = self.grains.radii(self.contacts.list.pairs[pair]);
         Squeeze {
             overlap: radii[0] + radii[1] - self.contacts.line(pair, &self.grains).length(),
             radii,

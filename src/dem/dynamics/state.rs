@@ -142,8 +142,7 @@ impl<C: ContactLaw> Bed<C> {
     /// Energy plastic flow has dissipated in a listed pair, J.
     #[must_use]
     pub fn plastic_in(&self, pair: usize) -> f64 {
-        let radii =
-            self.contacts.list.pairs[pair].map(|grain| self.grains.spheres[grain as usize].radius);
+        let radii = self.grains.radii(self.contacts.list.pairs[pair]);
         self.contacts.flowed(pair, radii, self.law.softening())
     }
 

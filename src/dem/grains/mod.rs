@@ -64,6 +64,21 @@ pub struct Grains {
 }
 
 impl Grains {
+    /// The spheres of a pair. Inner loops ask for them: `map` of an array is a call that is not always expanded.
+    #[inline(always)]
+    #[must_use]
+    pub fn both(&self, [a, b]: [u32; 2]) -> [&Sphere; 2] {
+        [&self.spheres[a as usize], &self.spheres[b as usize]]
+    }
+
+    /// Their radii.
+    #[inline(always)]
+    #[must_use]
+    pub fn radii(&self, pair: [u32; 2]) -> [f64; 2] {
+        let [a, b] = self.both(pair);
+        [a.radius, b.radius]
+    }
+
     /// Adds a solid sphere of `density` (kg/m3) at rest.
     pub fn add(&mut self, centre: Vector, radius: f64, density: f64) {
         let mass = 4.0 / 3.0 * PI * radius.powi(3) * density;

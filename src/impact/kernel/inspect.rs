@@ -3,7 +3,7 @@
 use super::part::Level;
 use crate::impact::kernel::{Cell, Part, Point, Points, Purpose, Sweep};
 use crate::lanes::{Lanes, WIDTH};
-use crate::material::stress::{Constitutive, Kinematics};
+use crate::material::stress::Kinematics;
 use crate::space::{Space, Symmetric};
 use crate::tape::{Keep, Tape};
 
@@ -22,10 +22,10 @@ pub struct PointView {
     pub von_mises: f64,
 }
 
-impl<S: Space, M: Constitutive<S>, const N: usize> Keep for Points<S, M, N> {
+impl<S: Space, const N: usize> Keep for Points<S, N> {
     fn save(&self, tape: &mut Tape) {
         let Self {
-            states,
+            matter,
             shock,
             cells,
             levels,
@@ -36,10 +36,10 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Keep for Points<S, M, N> {
             scratch: _,
             partial: _,
             cold: _,
-            material: _,
+            moduli: _,
             own_volume: _,
         } = self;
-        states.as_slice().save(tape);
+        matter.save(tape);
         shock.save(tape);
         clock.save(tape);
         let left = cells.iter().map(|c| (c.first, (c.strength, c.moved)));
@@ -49,7 +49,7 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Keep for Points<S, M, N> {
     }
 
     fn load(&mut self, tape: &mut Tape) -> Option<()> {
-        self.states.as_mut_slice().load(tape)?;
+        self.matter.load(tape)?;
         self.shock.load(tape)?;
         self.clock.load(tape)?;
         let mut left: Vec<(u32, (f64, f64))> = Vec::new();
@@ -80,14 +80,12 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Keep for Points<S, M, N> {
     }
 }
 
-impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
+impl<S: Space, const N: usize> Points<S, N> {
     /// Sum over the points of reference volume times accumulated plastic strain.
     pub fn plastic_strain_volume(&self) -> f64 {
-        self.states
-            .iter()
-            .zip(&self.volumes)
-            .map(|(s, v)| (M::plastic_strain(s) * *v).sum())
-            .sum()
+        let of_block =
+            |(block, volume): (usize, &Lanes)| (self.matter.plastic_strain(block) * *volume).sum();
+        self.volumes.iter().enumerate().map(of_block).sum()
     }
 
     /// Every material point at displacements `u`, in a fixed order.
@@ -103,9 +101,9 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
                     recip_j: j.recip(),
                     recip_cbrt_j: j.recip_cbrt(),
                 };
-                let trial = self.material.trial(&kinematics, &self.states[block]);
+                let trial = self.matter.trial(&kinematics, block);
                 let mises = (trial.deviator.squared_norm() * 1.5).sqrt() * j.recip();
-                let strain = M::plastic_strain(&self.states[block]);
+                let strain = self.matter.plastic_strain(block);
                 for lane in 0..WIDTH {
                     if self.volumes[block].array()[lane] > 0.0
                         && let Some((node, point)) = cold.next()

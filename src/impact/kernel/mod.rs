@@ -8,17 +8,19 @@
 //! $(1 - \alpha) V U(\theta) + \alpha \sum V_0 U(J)$: alone, the mean leaves a yielding cell free to turn a point inside out.
 
 mod inspect;
+mod matter;
 mod part;
 mod passes;
 mod shock;
 
 pub use inspect::PointView;
+pub use matter::{Matter, made_of};
 use part::Level;
 pub use part::Part;
 use shock::Shock;
 
 use crate::lanes::{Lanes, WIDTH};
-use crate::material::stress::{Constitutive, Kinematics, Response};
+use crate::material::stress::{Kinematics, Moduli, Response};
 use crate::space::{Space, Symmetric};
 
 /// Blocks that a pass works on before the next one follows: their weights stay in the nearest cache in between.
@@ -53,7 +55,7 @@ impl<const N: usize> Point<N> {
 
 /// A cell of the grid that holds material.
 #[derive(Debug, Clone, Copy)]
-struct Cell {
+pub struct Cell {
     /// First node; the others follow by `Points::offsets`.
     node: u32,
     /// Blocks `first..last`.
@@ -77,7 +79,7 @@ struct Cell {
 
 /// What the passes of a sweep hand on of one block.
 #[derive(Clone, Copy)]
-struct Scratch<S: Space> {
+pub struct Scratch<S: Space> {
     /// Deformation; its gradient becomes the stress times the volume.
     kinematics: Kinematics<S>,
     /// Volume ratio J.
@@ -115,8 +117,7 @@ impl<S: Space> Scratch<S> {
 }
 
 /// Material points: blocks of four, grouped by cell, structure of arrays.
-#[derive(Clone)]
-pub struct Points<S: Space, M: Constitutive<S>, const N: usize> {
+pub struct Points<S: Space, const N: usize> {
     cells: Vec<Cell>,
     /// Cells by the step they take; never empty.
     levels: Vec<Level>,
@@ -124,7 +125,7 @@ pub struct Points<S: Space, M: Constitutive<S>, const N: usize> {
     /// Factors of the weights, [`Self::STRIDE`] a block.
     factors: Vec<Lanes>,
     volumes: Vec<Lanes>,
-    states: Vec<M::State>,
+    matter: Box<dyn Matter<S>>,
     /// Viscous stress in shocks; holds nothing when off.
     shock: Shock,
     scratch: Vec<Scratch<S>>,
@@ -132,11 +133,31 @@ pub struct Points<S: Space, M: Constitutive<S>, const N: usize> {
     partial: Vec<Lanes>,
     /// Unpacked points, for snapshots only.
     cold: Vec<(u32, Point<N>)>,
-    material: M,
+    moduli: Moduli,
     /// Share of the volumetric stiffness on the points' own volume ratio.
     own_volume: f64,
     /// Time, R/c0.
     clock: f64,
+}
+
+impl<S: Space, const N: usize> Clone for Points<S, N> {
+    fn clone(&self) -> Self {
+        Points {
+            cells: self.cells.clone(),
+            levels: self.levels.clone(),
+            offsets: self.offsets,
+            factors: self.factors.clone(),
+            volumes: self.volumes.clone(),
+            matter: self.matter.copy(),
+            shock: self.shock.clone(),
+            scratch: self.scratch.clone(),
+            partial: self.partial.clone(),
+            cold: self.cold.clone(),
+            moduli: self.moduli,
+            own_volume: self.own_volume,
+            clock: self.clock,
+        }
+    }
 }
 
 /// Energies seen on the way through the points.
@@ -178,7 +199,7 @@ impl Purpose {
     }
 }
 
-impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
+impl<S: Space, const N: usize> Points<S, N> {
     /// Functions a direction that reach into a cell.
     const SIDE: usize = side(N, S::DIRECTIONS);
     /// Rows of nodes a cell.
@@ -189,8 +210,14 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
     /// No points yet, on a grid whose cells reach their nodes by `offsets` from the first. `own_volume`: share of the
     /// volumetric stiffness that acts on each point's own volume ratio. `shocks`: share of the
     /// stable time step that is taken, for a viscous stress in shocks; none without.
-    pub fn new(material: M, offsets: [usize; N], own_volume: f64, shocks: Option<f64>) -> Self {
-        let dilatational = material.moduli().dilatational_speed(1.0);
+    pub fn new(
+        matter: Box<dyn Matter<S>>,
+        offsets: [usize; N],
+        own_volume: f64,
+        shocks: Option<f64>,
+    ) -> Self {
+        let moduli = matter.moduli();
+        let dilatational = moduli.dilatational_speed(1.0);
         Points {
             shock: Shock::new(dilatational, shocks),
             cells: Vec::new(),
@@ -198,11 +225,11 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
             offsets,
             factors: Vec::new(),
             volumes: Vec::new(),
-            states: Vec::new(),
+            matter,
             partial: Vec::new(),
             scratch: vec![Scratch::virgin(); BATCH],
             cold: Vec::new(),
-            material,
+            moduli,
             own_volume,
             clock: 0.0,
         }
@@ -222,7 +249,7 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
             self.factors.extend(packed.into_iter().map(Lanes::new));
             let volume = |lane: usize| block.get(lane).map_or(0.0, |p| p.volume);
             self.volumes.push(Lanes::new([0, 1, 2, 3].map(volume)));
-            self.states.push(self.material.virgin());
+            self.matter.push();
             self.shock.push();
         }
         let last = self.volumes.len() as u32;
@@ -299,7 +326,7 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
         size(&self.cells)
             + size(&self.factors)
             + size(&self.volumes)
-            + size(&self.states)
+            + self.matter.bytes()
             + self.shock.bytes()
             + size(&self.scratch)
             + size(&self.partial)

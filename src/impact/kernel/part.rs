@@ -5,7 +5,6 @@
 
 use crate::impact::kernel::{Cell, Points, Purpose, Sweep, side};
 use crate::lanes::Lanes;
-use crate::material::stress::Constitutive;
 use crate::space::{Space, Symmetric};
 use std::ops::Range;
 
@@ -30,7 +29,7 @@ pub(super) struct Level {
     pub(super) nodes: Vec<usize>,
 }
 
-impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
+impl<S: Space, const N: usize> Points<S, N> {
     /// Internal forces of the displacements `u`, written into `force`.
     pub fn sweep(&mut self, purpose: Purpose, u: &[S::Vector], force: &mut [S::Vector]) -> Sweep {
         self.sweep_part(Part::All, purpose, u, force)
@@ -255,13 +254,14 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::impact::kernel::passes::tests::{GRID, Metal, metal};
+    use crate::impact::kernel::made_of;
+    use crate::impact::kernel::passes::tests::{GRID, metal};
     use crate::impact::model;
     use crate::impact::model::AxisymmetricModel;
     use crate::scheme::Layout;
 
-    fn model() -> AxisymmetricModel<Metal, 9> {
-        model::build::<_, 2, 9>(&GRID, Layout::Fitted, metal(), 1e-9)
+    fn model() -> AxisymmetricModel<9> {
+        model::build::<2, 9>(&GRID, Layout::Fitted, made_of(metal()), 1e-9)
     }
 
     /// The third cell goes two levels down, the twentieth one.
@@ -306,7 +306,7 @@ mod tests {
         // a cell of the second level shares no node with one that takes the longest step but through a row in between
         let deep: Vec<usize> = model.points.nodes_of(2).to_vec();
         assert!(deep.len() > 9, "more than the chosen cell's own nodes");
-        let counts = |p: &Points<_, Metal, 9>| [0, 1, 2].map(|l| p.range(Part::Level(l)).len());
+        let counts = |p: &Points<_, 9>| [0, 1, 2].map(|l| p.range(Part::Level(l)).len());
         let before = counts(&model.points);
         assert!(before[1] > 1 && before[2] > 1);
         assert!(!model.points.deepen(&vec![0; cells], nodes));

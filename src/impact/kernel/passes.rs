@@ -7,7 +7,6 @@
 
 use crate::impact::kernel::{Cell, Points, Purpose, Sweep};
 use crate::lanes::Lanes;
-use crate::material::stress::Constitutive;
 use crate::space::{Space, Symmetric};
 use std::ops::Range;
 
@@ -19,7 +18,25 @@ struct Tally {
     least: Lanes,
 }
 
-impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
+/// Vector instructions that a sweep is compiled for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Vectors {
+    /// Those that every machine of its kind has.
+    Any,
+    /// 256-bit registers.
+    #[cfg(target_arch = "x86_64")]
+    Avx2,
+}
+
+/// Blocks of a batch of cells.
+#[inline(always)]
+pub(super) fn blocks(cells: &[Cell]) -> impl Iterator<Item = usize> {
+    cells
+        .iter()
+        .flat_map(|cell| cell.first as usize..cell.last as usize)
+}
+
+impl<S: Space, const N: usize> Points<S, N> {
     /// The passes over `cells`, forces added to those of the nodes, with whatever vector instructions the machine has.
     pub(super) fn pass(&mut self, cells: Range<usize>, purpose: Purpose, u: &[S::Vector]) -> Sweep {
         #[cfg(target_arch = "x86_64")]
@@ -28,18 +45,24 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
             // SAFETY: the features were detected on the lines above.
             return unsafe { self.pass_avx2(cells, purpose, u) };
         }
-        self.pass_any(cells, purpose, u)
+        self.pass_any(cells, purpose, u, Vectors::Any)
     }
 
     /// [`Self::pass`] compiled for 256-bit registers.
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2,fma")]
     fn pass_avx2(&mut self, cells: Range<usize>, purpose: Purpose, u: &[S::Vector]) -> Sweep {
-        self.pass_any(cells, purpose, u)
+        self.pass_any(cells, purpose, u, Vectors::Avx2)
     }
 
     #[inline(always)]
-    fn pass_any(&mut self, cells: Range<usize>, purpose: Purpose, u: &[S::Vector]) -> Sweep {
+    fn pass_any(
+        &mut self,
+        cells: Range<usize>,
+        purpose: Purpose,
+        u: &[S::Vector],
+        vectors: Vectors,
+    ) -> Sweep {
         let mut tally = Tally {
             least: Lanes::splat(f64::INFINITY),
             plastic: Lanes::default(),
@@ -53,7 +76,7 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
             if self.shock.is_on() && purpose.moves() {
                 self.damp(from..to, &mut tally);
             }
-            self.respond(from..to, purpose);
+            self.respond(from..to, purpose, vectors);
             self.answer(from..to, purpose, &mut tally);
             self.scatter(from..to);
             from = to;
@@ -116,14 +139,6 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
         gradient
     }
 
-    /// Blocks of a batch of cells.
-    #[inline(always)]
-    fn blocks(cells: &[Cell]) -> impl Iterator<Item = usize> {
-        cells
-            .iter()
-            .flat_map(|cell| cell.first as usize..cell.last as usize)
-    }
-
     /// Viscous stresses of a batch of cells, and the work of those before.
     #[inline(always)]
     fn damp(&mut self, cells: Range<usize>, tally: &mut Tally) {
@@ -140,9 +155,9 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
 
     /// Isochoric responses of a batch of cells.
     #[inline(always)]
-    fn respond(&mut self, cells: Range<usize>, purpose: Purpose) {
+    fn respond(&mut self, cells: Range<usize>, purpose: Purpose, vectors: Vectors) {
         let cells = &mut self.cells[cells];
-        let count = Self::blocks(cells).count();
+        let count = blocks(cells).count();
         let scratch = &mut self.scratch[..count];
         let mut far = false;
         for s in scratch.iter_mut() {
@@ -159,34 +174,13 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
                 s.kinematics.recip_cbrt_j = s.j.recip_cbrt();
             }
         }
-        for (s, block) in scratch.iter_mut().zip(Self::blocks(cells)) {
-            s.response = (self.material).trial(&s.kinematics, &self.states[block]);
-        }
-        if purpose == Purpose::Trial {
-            return;
-        }
-        let mut scratch = scratch.iter_mut();
-        for cell in cells {
-            let dt = self.clock - cell.moved;
-            let states = &mut self.states[cell.first as usize..cell.last as usize];
-            if purpose == Purpose::Look {
-                for (state, s) in states.iter().zip(&mut scratch) {
-                    let mut state = *state;
-                    s.response = (self.material).settle(&s.kinematics, dt, &mut state, &s.response);
-                }
-            } else {
-                for (state, s) in states.iter_mut().zip(&mut scratch) {
-                    s.response = (self.material).settle(&s.kinematics, dt, state, &s.response);
-                }
-                cell.moved = self.clock;
-            }
-        }
+        (self.matter).respond(cells, scratch, purpose, self.clock, vectors);
     }
 
     /// Stresses of a batch of cells: the gradients in the scratch become first Piola-Kirchhoff stresses times volumes.
     #[inline(always)]
     fn answer(&mut self, cells: Range<usize>, purpose: Purpose, tally: &mut Tally) {
-        let moduli = self.material.moduli();
+        let moduli = self.moduli;
         let own_bulk = 0.5 * moduli.bulk * self.own_volume;
         let share = 1.0 - self.own_volume;
         let mut scratch = self.scratch.iter_mut();
@@ -245,6 +239,7 @@ impl<S: Space, M: Constitutive<S>, const N: usize> Points<S, M, N> {
 
 #[cfg(test)]
 pub(super) mod tests {
+    use super::Vectors;
     use crate::impact::kernel::Part;
     use crate::impact::kernel::*;
     use crate::impact::model;
@@ -278,9 +273,9 @@ pub(super) mod tests {
 
     /// Bits of the forces and sums of a few steps at growing displacements.
     fn bits<S: Space, const N: usize>(
-        mut points: Points<S, Metal, N>,
+        mut points: Points<S, N>,
         nodes: usize,
-        mut pass: impl FnMut(&mut Points<S, Metal, N>, &[S::Vector]) -> Sweep,
+        mut pass: impl FnMut(&mut Points<S, N>, &[S::Vector]) -> Sweep,
     ) -> Vec<u64> {
         let mut all = Vec::new();
         for step in 1..=3 {
@@ -312,10 +307,10 @@ pub(super) mod tests {
         {
             return;
         }
-        let flat = || model::build::<_, 2, 9>(&GRID, Layout::Fitted, metal(), 1e-9);
+        let flat = || model::build::<2, 9>(&GRID, Layout::Fitted, made_of(metal()), 1e-9);
         let nodes = flat().mass.len();
         let plain = bits(flat().points, nodes, |p, u| {
-            p.pass_any(0..p.cells.len(), Purpose::Audit, u)
+            p.pass_any(0..p.cells.len(), Purpose::Audit, u, Vectors::Any)
         });
         let vector = bits(flat().points, nodes, |p, u| {
             // SAFETY: the features were detected above.
@@ -327,10 +322,10 @@ pub(super) mod tests {
             layout: Layout::Fitted,
             geometry: Geometry::Quarter,
         };
-        let full = || solid::build::<_, _, 2, 27>(mesh, metal(), Frictionless, 1e-9);
+        let full = || solid::build::<_, 2, 27>(mesh, made_of(metal()), Frictionless, 1e-9);
         let nodes = full().mass.len();
         let plain = bits(full().points, nodes, |p, u| {
-            p.pass_any(0..p.cells.len(), Purpose::Audit, u)
+            p.pass_any(0..p.cells.len(), Purpose::Audit, u, Vectors::Any)
         });
         let vector = bits(full().points, nodes, |p, u| {
             // SAFETY: the features were detected above.
@@ -341,11 +336,11 @@ pub(super) mod tests {
 
     #[test]
     fn a_look_leaves_the_states_and_finds_what_the_step_then_does() {
-        let model = model::build::<_, 2, 9>(&GRID, Layout::Fitted, metal(), 1e-9);
+        let model = model::build::<2, 9>(&GRID, Layout::Fitted, made_of(metal()), 1e-9);
         let u: Vec<[f64; 2]> = (0..model.mass.len())
             .map(|n| [0.0, 4e-3 * (0.7 * n as f64).cos()])
             .collect();
-        let sweep = |points: &mut Points<_, Metal, 9>, purpose| {
+        let sweep = |points: &mut Points<_, 9>, purpose| {
             let mut force = vec![[0.0; 2]; u.len()];
             let sweep = points.sweep(purpose, &u, &mut force);
             (sweep.plastic, sweep.elastic, force)
@@ -364,7 +359,7 @@ pub(super) mod tests {
 
     #[test]
     fn cells_one_by_one_add_up_to_the_whole() {
-        let mut model = model::build::<_, 2, 9>(&GRID, Layout::Fitted, metal(), 1e-9);
+        let mut model = model::build::<2, 9>(&GRID, Layout::Fitted, made_of(metal()), 1e-9);
         let u: Vec<[f64; 2]> = (0..model.mass.len())
             .map(|n| [0.0, 1e-3 * (0.7 * n as f64).cos()])
             .collect();

@@ -3,12 +3,11 @@
 pub mod solid;
 
 use crate::impact::grid::section::Section;
-use crate::impact::kernel::{Point, Points};
+use crate::impact::kernel::{Matter, Point, Points};
 use crate::impact::points::lattice;
 use crate::impact::points::section::{SectionPoint, SurfacePoint, clip_cell, meridian};
 use crate::impact::wall::contact_point::ContactPoint;
 use crate::impact::wall::meridian::{Contact, Wall};
-use crate::material::stress::Constitutive;
 use crate::plan::{Grid, graded};
 use crate::scheme::Layout;
 use crate::space::{Axisymmetric, Space};
@@ -21,9 +20,9 @@ const CONTACT_SPACING: f64 = 0.5;
 
 /// A body on its grid, ready to run; lengths in R, density and Young's modulus one.
 #[derive(Clone)]
-pub struct Model<S: Space, M: Constitutive<S>, W: Wall<S>, const N: usize> {
+pub struct Model<S: Space, W: Wall<S>, const N: usize> {
     /// Material points.
-    pub points: Points<S, M, N>,
+    pub points: Points<S, N>,
     /// Contact of the surface points with the wall.
     pub contact: W,
     /// Lumped nodal masses.
@@ -38,11 +37,11 @@ pub struct Model<S: Space, M: Constitutive<S>, W: Wall<S>, const N: usize> {
     pub markers: [Vec<(usize, f64)>; 3],
 }
 
-keep_fields!(impl [S: Space, M: Constitutive<S>, W: Wall<S>, const N: usize] Model<S, M, W, N>: points, contact;
+keep_fields!(impl [S: Space, W: Wall<S>, const N: usize] Model<S, W, N>: points, contact;
     rebuilt mass, recip_mass, places, copies, markers);
 
 /// Model of the axisymmetric section.
-pub type AxisymmetricModel<M, const N: usize> = Model<Axisymmetric, M, Contact<Axisymmetric, N>, N>;
+pub type AxisymmetricModel<const N: usize> = Model<Axisymmetric, Contact<Axisymmetric, N>, N>;
 
 /// The grid of a plan over the unit sphere.
 fn section<const P: usize>(grid: &Grid, layout: Layout) -> Section<P> {
@@ -54,12 +53,12 @@ fn section<const P: usize>(grid: &Grid, layout: Layout) -> Section<P> {
 }
 
 /// Lay `grid` over a unit sphere of the given material. `N` must be $(P+1)^2$.
-pub fn build<M: Constitutive<Axisymmetric>, const P: usize, const N: usize>(
+pub fn build<const P: usize, const N: usize>(
     grid: &Grid,
     layout: Layout,
-    material: M,
+    matter: Box<dyn Matter<Axisymmetric>>,
     contact_tolerance: f64,
-) -> AxisymmetricModel<M, N> {
+) -> AxisymmetricModel<N> {
     const { assert!(N == (P + 1) * (P + 1)) };
     let mut section = section::<P>(grid, layout);
     let columns = section.r.cells();
@@ -83,7 +82,7 @@ pub fn build<M: Constitutive<Axisymmetric>, const P: usize, const N: usize>(
     let remedies = &grid.remedies;
     let own_volume = remedies.own_volume;
     let shocks = remedies.shocks.then_some(grid.dt_share);
-    let mut points = Points::new(material, section.offsets(), own_volume, shocks);
+    let mut points = Points::new(matter, section.offsets(), own_volume, shocks);
     for (c, cell) in carried
         .iter()
         .enumerate()
@@ -170,10 +169,10 @@ fn recip_mass(mass: &[f64], columns: usize) -> Vec<[f64; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::impact::kernel::Purpose;
+    use crate::impact::kernel::{Purpose, made_of};
     use crate::material::stress::{Elastic, Moduli};
 
-    type Sphere = Model<Axisymmetric, Elastic, Contact<Axisymmetric, 9>, 9>;
+    type Sphere = Model<Axisymmetric, Contact<Axisymmetric, 9>, 9>;
 
     fn grid() -> Grid {
         Grid {
@@ -192,7 +191,7 @@ mod tests {
 
     fn model() -> Sphere {
         let moduli = Moduli::new(1.0, 0.3);
-        build::<Elastic, 2, 9>(&grid(), Layout::Fitted, Elastic { moduli }, 1e-9)
+        build::<2, 9>(&grid(), Layout::Fitted, made_of(Elastic { moduli }), 1e-9)
     }
 
     /// A smooth displacement field that keeps the axis in place.

@@ -4,18 +4,17 @@
 //! and impulses are those of the whole sphere.
 
 use crate::impact::grid::volume::Volume;
-use crate::impact::kernel::{Point, Points};
+use crate::impact::kernel::{Matter, Point, Points};
 use crate::impact::model::Model;
 use crate::impact::points::ball::{BallPoint, clip, surface};
 use crate::impact::points::lattice;
 use crate::impact::wall::surface::{Friction, Patch};
-use crate::material::stress::Constitutive;
 use crate::plan::{Geometry, Grid};
 use crate::scheme::Layout;
 use crate::space::Solid;
 
 /// A run's model in three dimensions.
-pub type SolidModel<M, F, const N: usize> = Model<Solid, M, Patch<F, N>, N>;
+pub type SolidModel<F, const N: usize> = Model<Solid, Patch<F, N>, N>;
 
 /// What is laid over the sphere.
 #[derive(Debug, Clone, Copy)]
@@ -68,18 +67,18 @@ impl Mesh<'_> {
 }
 
 /// Lay `mesh` over a unit sphere. `N` must be $(P+1)^3$.
-pub fn build<M: Constitutive<Solid>, F: Friction, const P: usize, const N: usize>(
+pub fn build<F: Friction, const P: usize, const N: usize>(
     mesh: Mesh,
-    material: M,
+    matter: Box<dyn Matter<Solid>>,
     friction: F,
     contact_tolerance: f64,
-) -> SolidModel<M, F, N> {
+) -> SolidModel<F, N> {
     const { assert!(N == (P + 1) * (P + 1) * (P + 1)) };
     let Mesh { grid, geometry, .. } = mesh;
     let volume = Volume::<P>::new(grid, geometry, mesh.layout);
     let copies = if geometry == Geometry::Half { 2.0 } else { 4.0 };
     let offsets = volume.offsets::<N>();
-    let mut points = Points::new(material, offsets, grid.remedies.own_volume, None);
+    let mut points = Points::new(matter, offsets, grid.remedies.own_volume, None);
     for (c, inside) in mesh.inside(&volume).iter().enumerate() {
         let index = volume.index(c);
         let point = |p: &BallPoint| volume.point(index, p.position, copies * p.volume);

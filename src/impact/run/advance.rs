@@ -6,7 +6,6 @@ use crate::impact::run::Run;
 use crate::impact::stepping::erosion::LEAST_J;
 use crate::impact::stepping::levels::push;
 use crate::impact::wall::meridian::{Touch, Wall};
-use crate::material::stress::Constitutive;
 use crate::space::Space;
 
 /// What an output needs of the levels' sweeps: elastic energy, and impulses of the steps that are under way.
@@ -17,10 +16,9 @@ pub(super) struct Output {
     pub(super) tangential: f64,
 }
 
-impl<S, M, W, T, const N: usize> Run<'_, S, M, W, T, N>
+impl<S, W, T, const N: usize> Run<'_, S, W, T, N>
 where
     S: Space,
-    M: Constitutive<S>,
     W: Wall<S>,
     T: Remap<S::Vector>,
 {

@@ -1,5 +1,6 @@
 //! Runs with levels of steps resume bit for bit.
 
+use crate::impact::kernel::made_of;
 use crate::impact::model;
 use crate::impact::run::Run;
 use crate::impact::wall::meridian::Contact;
@@ -11,8 +12,7 @@ use crate::space::Axisymmetric;
 use crate::tape::{Keep, Tape};
 use std::path::Path;
 
-type Metal = J2<PerfectlyPlastic>;
-type Crushed<'a> = Run<'a, Axisymmetric, Metal, Contact<Axisymmetric, 9>, (), 9>;
+type Crushed<'a> = Run<'a, Axisymmetric, Contact<Axisymmetric, 9>, (), 9>;
 
 /// E/Y = 320 and rho V^2/Y = 1 on a coarse grid.
 fn planned() -> Plan {
@@ -28,7 +28,12 @@ fn run(plan: &Plan) -> Crushed<'_> {
     let flow = PerfectlyPlastic {
         strength: 1.0 / 320.0,
     };
-    let model = model::build::<Metal, 2, 9>(&plan.grid, Layout::Fitted, J2 { moduli, flow }, 1e-9);
+    let model = model::build::<2, 9>(
+        &plan.grid,
+        Layout::Fitted,
+        made_of(J2 { moduli, flow }),
+        1e-9,
+    );
     Run::new(model, (), plan, 0.0559)
 }
 

@@ -18,7 +18,6 @@ use crate::impact::stepping::erosion::Erosion;
 use crate::impact::stepping::levels::LocalStep;
 use crate::impact::stepping::stability::StabilityLimit;
 use crate::impact::wall::meridian::Wall;
-use crate::material::stress::Constitutive;
 use crate::plan::{Plan, Remedies};
 use crate::scheme::{TimeStep, Transfer};
 use crate::space::Space;
@@ -54,8 +53,8 @@ struct Start {
 
 keep_fields!(Start: height, centre, elastic, eroded);
 keep_fields!(
-    impl [S: Space, M: Constitutive<S>, W: Wall<S>, T: Remap<S::Vector>, const N: usize]
-    Run<'_, S, M, W, T, N>:
+    impl [S: Space, W: Wall<S>, T: Remap<S::Vector>, const N: usize]
+    Run<'_, S, W, T, N>:
     model, transfer, transferred, u, v, limit, local, dt, time, step, stepped, next_refresh, next_output, impulse, tangential,
     contact_work, plastic, shock, contact_radius, contact_end, frames, closure, compressed, erosion, start;
     rebuilt plan, speed, old, force, blocks, mass, failure, excess,
@@ -63,14 +62,13 @@ keep_fields!(
 
 /// A run in progress.
 #[derive(Clone)]
-pub(in crate::impact) struct Run<'a, S, M, W, T, const N: usize>
+pub(in crate::impact) struct Run<'a, S, W, T, const N: usize>
 where
     S: Space,
-    M: Constitutive<S>,
     W: Wall<S>,
     T: Remap<S::Vector>,
 {
-    model: Model<S, M, W, N>,
+    model: Model<S, W, N>,
     transfer: T,
     transferred: f64,
     plan: &'a Plan,
@@ -108,15 +106,14 @@ where
     excess: f64,
 }
 
-impl<'a, S, M, W, T, const N: usize> Run<'a, S, M, W, T, N>
+impl<'a, S, W, T, const N: usize> Run<'a, S, W, T, N>
 where
     S: Space,
-    M: Constitutive<S>,
     W: Wall<S>,
     T: Remap<S::Vector>,
 {
     pub(in crate::impact) fn new(
-        model: Model<S, M, W, N>,
+        model: Model<S, W, N>,
         transfer: T,
         plan: &'a Plan,
         speed: f64,

@@ -7,15 +7,13 @@ use crate::curve::Status;
 use crate::impact::kernel::PointView;
 use crate::impact::run::{Run, UNSTABLE};
 use crate::impact::wall::meridian::Wall;
-use crate::material::stress::Constitutive;
 use crate::plan::Geometry;
 use crate::scheme::Scheme;
 use crate::space::Space;
 
-impl<S, M, W, T, const N: usize> Run<'_, S, M, W, T, N>
+impl<S, W, T, const N: usize> Run<'_, S, W, T, N>
 where
     S: Space,
-    M: Constitutive<S>,
     W: Wall<S>,
     T: Remap<S::Vector>,
 {

@@ -10,7 +10,6 @@
 use super::Run;
 use super::transfer::Remap;
 use crate::impact::wall::meridian::Wall;
-use crate::material::stress::Constitutive;
 use crate::plan::Geometry;
 use crate::space::Space;
 
@@ -21,10 +20,9 @@ struct Moments {
     inertia: f64,
 }
 
-impl<S, M, W, T, const N: usize> Run<'_, S, M, W, T, N>
+impl<S, W, T, const N: usize> Run<'_, S, W, T, N>
 where
     S: Space,
-    M: Constitutive<S>,
     W: Wall<S>,
     T: Remap<S::Vector>,
 {

@@ -10,7 +10,6 @@
 
 use super::stability::StabilityLimit;
 use crate::impact::kernel::{Part, Points, Purpose};
-use crate::material::stress::Constitutive;
 use crate::space::Space;
 use crate::tape::keep_fields;
 
@@ -85,10 +84,10 @@ impl Erosion {
     ///
     /// # Errors
     /// The reason to stop, when half of the body has lost its strength.
-    pub fn stable_step<S: Space, M: Constitutive<S>, const N: usize>(
+    pub fn stable_step<S: Space, const N: usize>(
         &mut self,
         limit: &mut StabilityLimit<S>,
-        points: &mut Points<S, M, N>,
+        points: &mut Points<S, N>,
         part: Part,
         u: &[S::Vector],
         recip_mass: &[S::Vector],
@@ -114,9 +113,9 @@ impl Erosion {
     ///
     /// # Errors
     /// As [`Self::stable_step`].
-    pub fn take_out_crushed<S: Space, M: Constitutive<S>, const N: usize>(
+    pub fn take_out_crushed<S: Space, const N: usize>(
         &mut self,
-        points: &mut Points<S, M, N>,
+        points: &mut Points<S, N>,
         u: &[S::Vector],
     ) -> Result<(), String> {
         let left = points.one_by_one(Part::All, Purpose::Trial, u, |sweep, _| {
@@ -126,9 +125,9 @@ impl Erosion {
     }
 
     /// Let every cell of a part carry the share `left` of what it carries now.
-    fn weaken<S: Space, M: Constitutive<S>, const N: usize>(
+    fn weaken<S: Space, const N: usize>(
         &mut self,
-        points: &mut Points<S, M, N>,
+        points: &mut Points<S, N>,
         part: Part,
         u: &[S::Vector],
         left: &[f64],

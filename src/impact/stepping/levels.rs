@@ -11,7 +11,6 @@ use super::erosion::{Erosion, REFRESH};
 use super::stability::StabilityLimit;
 use crate::impact::kernel::{Part, Points};
 use crate::impact::wall::meridian::{Touch, Wall};
-use crate::material::stress::Constitutive;
 use crate::plan::Remedies;
 use crate::space::Space;
 use crate::tape::{Keep, Tape, keep_fields};
@@ -116,11 +115,11 @@ impl<S: Space, W: Wall<S>> LocalStep<S, W> {
     ///
     /// # Errors
     /// Those of [`Erosion::stable_step`].
-    pub fn stable_step<M: Constitutive<S>, const N: usize>(
+    pub fn stable_step<const N: usize>(
         &mut self,
         limit: &mut StabilityLimit<S>,
         erosion: &mut Erosion,
-        points: &mut Points<S, M, N>,
+        points: &mut Points<S, N>,
         u: &[S::Vector],
         recip_mass: &[S::Vector],
     ) -> Result<f64, String> {
@@ -138,11 +137,11 @@ impl<S: Space, W: Wall<S>> LocalStep<S, W> {
     }
 
     /// Estimate the stable step of every level.
-    fn measure<M: Constitutive<S>, const N: usize>(
+    fn measure<const N: usize>(
         &mut self,
         limit: &mut StabilityLimit<S>,
         erosion: &mut Erosion,
-        points: &mut Points<S, M, N>,
+        points: &mut Points<S, N>,
         steepest: &[f64],
         (u, recip_mass): (&[S::Vector], &[S::Vector]),
     ) -> Result<(), String> {
@@ -176,9 +175,9 @@ impl<S: Space, W: Wall<S>> LocalStep<S, W> {
 
     /// Cells by the step they need: those within the longest step first, then an octave a level. Returns the largest
     /// steepness of each level; forgets the measured steps where a cell changed its level.
-    fn sort<M: Constitutive<S>, const N: usize>(
+    fn sort<const N: usize>(
         &mut self,
-        points: &mut Points<S, M, N>,
+        points: &mut Points<S, N>,
         u: &[S::Vector],
         recip_mass: &[S::Vector],
     ) -> Vec<f64> {
@@ -199,12 +198,12 @@ impl<S: Space, W: Wall<S>> LocalStep<S, W> {
     }
 
     /// Contact candidates of the levels beyond the first, as [`Wall::refresh`].
-    pub fn refresh<M: Constitutive<S>, const N: usize>(
+    pub fn refresh<const N: usize>(
         &mut self,
         u: &[S::Vector],
         speed: f64,
         horizon: f64,
-        points: &Points<S, M, N>,
+        points: &Points<S, N>,
     ) {
         for (k, level) in self.levels.iter_mut().enumerate().take(points.deepest()) {
             let nodes = points.nodes_of(k + 1);

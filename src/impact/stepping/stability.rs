@@ -4,7 +4,6 @@
 //! deformed body whatever the grid or material. Plastic flow only softens it.
 
 use crate::impact::kernel::{Part, Points, Purpose, Sweep};
-use crate::material::stress::Constitutive;
 use crate::space::Space;
 use crate::tape::keep_fields;
 
@@ -49,9 +48,9 @@ impl<S: Space> StabilityLimit<S> {
 
     /// Stable time step of a part of the cells at displacements `u` after `iterations` power iterations: of the mode found last,
     /// which the body's slow change keeps converged, or of that one mixed with what a search found, if this is faster.
-    pub fn estimate<M: Constitutive<S>, const N: usize>(
+    pub fn estimate<const N: usize>(
         &mut self,
-        points: &mut Points<S, M, N>,
+        points: &mut Points<S, N>,
         part: Part,
         u: &[S::Vector],
         recip_mass: &[S::Vector],
@@ -81,9 +80,9 @@ impl<S: Space> StabilityLimit<S> {
     }
 
     /// Energy of each cell of a part in the fastest mode found, over the largest of them.
-    pub fn energy_shares<M: Constitutive<S>, const N: usize>(
+    pub fn energy_shares<const N: usize>(
         &mut self,
-        points: &mut Points<S, M, N>,
+        points: &mut Points<S, N>,
         part: Part,
         u: &[S::Vector],
     ) -> Vec<f64> {
@@ -119,9 +118,9 @@ impl<S: Space> StabilityLimit<S> {
     }
 
     /// One power iteration at displacements `u`, whose forces are in `rest`.
-    fn iterate<M: Constitutive<S>, const N: usize>(
+    fn iterate<const N: usize>(
         &mut self,
-        points: &mut Points<S, M, N>,
+        points: &mut Points<S, N>,
         part: Part,
         u: &[S::Vector],
         recip_mass: &[S::Vector],
