@@ -51,6 +51,8 @@ pub enum Range {
     Positive,
     /// x >= 0.
     NotNegative,
+    /// 0 < x <= 1.
+    UpToOne,
     /// 0 < x < E.
     BelowYoungModulus,
 }
@@ -185,6 +187,7 @@ impl Range {
         match self {
             Range::Positive => x > 0.0,
             Range::NotNegative => x >= 0.0,
+            Range::UpToOne => x > 0.0 && x <= 1.0,
             Range::BelowYoungModulus => x > 0.0 && x < young_modulus,
         }
     }
@@ -195,6 +198,7 @@ impl Range {
         match self {
             Range::Positive => "> 0",
             Range::NotNegative => "≥ 0",
+            Range::UpToOne => "> 0, ≤ 1",
             Range::BelowYoungModulus => "> 0, < E",
         }
     }
@@ -205,6 +209,7 @@ impl Range {
         match self {
             Range::Positive => "must be positive".to_owned(),
             Range::NotNegative => "must not be negative".to_owned(),
+            Range::UpToOne => "must be positive and at most 1".to_owned(),
             Range::BelowYoungModulus => format!(
                 "must be positive and below young_modulus ({}); check the unit of both",
                 engineering(young_modulus, "Pa", 4)

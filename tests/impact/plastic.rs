@@ -215,6 +215,44 @@ fn hardening_stiffens_and_returns_more_energy() {
 }
 
 #[test]
+fn hardening_laws_give_the_same_impact_where_they_are_the_same_law() {
+    let harder = |constants: &str| {
+        let text = format!(
+            "[particle]\nradius = \"1 mm\"\n[material]\ndensity = \"1000 kg/m3\"\nyoung_modulus = \"1 GPa\"\n\
+             poisson_ratio = 0.35\nyield_strength = \"5 MPa\"\n{constants}\n\
+             [impact]\nvelocities = [\"10 m/s\"]\n[accuracy]\ntolerance = 0.1\n"
+        );
+        run(&Case::parse(&text, Path::new("harder.toml")).unwrap(), 10.0).summary
+    };
+    let figures =
+        |s: &impactlaw::curve::Summary| [s.max_force_n, s.max_displacement_m, s.restitution];
+    let linear = harder("hardening_modulus = \"20 MPa\"");
+    let power = harder("hardening_coefficient = \"20 MPa\"\nhardening_exponent = 1.0");
+    let voce = harder("saturation_stress = \"20 GPa\"\nsaturation_exponent = 1e-3");
+    for (name, other, within) in [("power", &power, 1e-6), ("voce", &voce, 2e-3)] {
+        for (a, b) in figures(&linear).into_iter().zip(figures(other)) {
+            assert!(change(a, b) < within, "{name}: {a} {b}");
+        }
+    }
+    // n of a metal: stiff at once, soft later
+    let metal = harder("hardening_coefficient = \"20 MPa\"\nhardening_exponent = 0.3");
+    let perfect = harder("");
+    assert!(metal.max_force_n > 1.2 * perfect.max_force_n, "{metal:?}");
+    assert!(metal.max_displacement_m < perfect.max_displacement_m);
+    // saturated: Voce's metal with a short way to saturation is perfectly plastic at Y + Q
+    let saturated = harder("saturation_stress = \"5 MPa\"\nsaturation_exponent = 1e5");
+    let strong = {
+        let text = "[particle]\nradius = \"1 mm\"\n[material]\ndensity = \"1000 kg/m3\"\nyoung_modulus = \"1 GPa\"\n\
+                    poisson_ratio = 0.35\nyield_strength = \"10 MPa\"\n[impact]\nvelocities = [\"10 m/s\"]\n\
+                    [accuracy]\ntolerance = 0.1\n";
+        run(&Case::parse(text, Path::new("strong.toml")).unwrap(), 10.0).summary
+    };
+    for (a, b) in figures(&saturated).into_iter().zip(figures(&strong)) {
+        assert!(change(a, b) < 0.02, "saturated: {a} {b}");
+    }
+}
+
+#[test]
 fn thread_count_does_not_change_a_bit() {
     let mut case = case("thesis-4-4.toml");
     case.tolerance = 0.1;

@@ -6,6 +6,8 @@
 mod declare;
 mod linear_hardening;
 mod perfectly_plastic;
+mod power_hardening;
+mod voce_hardening;
 mod written;
 
 pub(super) use declare::flow_stress;
@@ -22,6 +24,8 @@ use std::fmt;
 flow_stresses! {
     perfectly_plastic::PerfectlyPlastic,
     linear_hardening::LinearHardening,
+    power_hardening::PowerHardening,
+    voce_hardening::VoceHardening,
 }
 
 /// Initial yield strength Y, the constant that every flow stress has.
