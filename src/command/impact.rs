@@ -131,6 +131,9 @@ pub fn impacts(
                 .write(&map("particle_rebound.csv"), &provenance)?;
             bar.inc(1);
             let summary = &done.impact.summary;
+            for warning in &summary.warnings {
+                tracing::warn!("at {} m/s: {warning}", plan.velocity);
+            }
             tracing::info!(
                 "{} m/s: {} points, {} steps in {:.1} s (predicted {:.1} s)",
                 plan.velocity,

@@ -143,6 +143,10 @@ pub fn simulated(
                 simulated.impact.write(&folder, &provenance)?;
                 KeptRun::of(&case, name).write(&folder)?;
                 let summary = simulated.impact.summary;
+                // by the name of the run: its speed is that of a body with R = rho = E = 1
+                for warning in &summary.warnings {
+                    tracing::warn!("{name}: {warning}");
+                }
                 tracing::info!(
                     "{name}: {} steps in {:.1} s (predicted {:.1} s)",
                     summary.steps,

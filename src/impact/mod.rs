@@ -139,9 +139,6 @@ fn simulated(
     let finished = |record: Record| {
         let wall = record.seconds_before + std::mem::take(&mut seconds);
         let impact = record.impact(material, radius, plan, wall);
-        for warning in &impact.summary.warnings {
-            tracing::warn!("at {} m/s: {warning}", plan.velocity);
-        }
         Simulated {
             impact,
             compressed: record.compressed.map(material, radius),
