@@ -26,7 +26,7 @@ pub struct Page {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Section {
     /// Heading.
-    pub title: &'static str,
+    pub title: String,
     /// Content in order.
     pub blocks: Vec<Block>,
 }
@@ -62,9 +62,9 @@ const STYLE: &str = include_str!("style.css");
 impl Section {
     /// Empty section.
     #[must_use]
-    pub fn new(title: &'static str) -> Self {
+    pub fn new(title: &str) -> Self {
         Section {
-            title,
+            title: title.to_owned(),
             blocks: Vec::new(),
         }
     }
@@ -80,7 +80,9 @@ impl Section {
 
     /// Name of the section in links.
     fn anchor(&self) -> String {
-        self.title.to_lowercase().replace(' ', "-")
+        self.title
+            .to_lowercase()
+            .replace(|c: char| !c.is_alphanumeric(), "-")
     }
 }
 
@@ -218,12 +220,12 @@ impl Page {
             escape(&self.summary)
         )?;
         for section in &self.sections {
-            let title = escape(section.title);
+            let title = escape(&section.title);
             write!(html, "<a href=\"#{}\">{title}</a> ", section.anchor())?;
         }
         html.push_str("</nav>\n</header>\n");
         for section in &self.sections {
-            let title = escape(section.title);
+            let title = escape(&section.title);
             writeln!(
                 html,
                 "<section id=\"{}\">\n<h2>{title}</h2>",

@@ -3,6 +3,9 @@
 use super::markup::escape;
 use std::fmt::Write;
 
+/// Cells with more characters than this wrap, so that a formula does not push the columns after it off the page.
+const LONG: usize = 36;
+
 /// A table; cells are text as it is to be read.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Table {
@@ -80,6 +83,10 @@ impl Table {
         for row in &self.rows {
             html.push_str("<tr>");
             for (cell, class) in row.iter().zip(&classes) {
+                let class = match cell.chars().count() > LONG {
+                    true => " class=\"long\"",
+                    false => class,
+                };
                 let _ = write!(html, "<td{class}>{}</td>", escape(cell));
             }
             html.push_str("</tr>\n");

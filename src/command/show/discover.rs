@@ -263,25 +263,42 @@ pub fn page(study: &str, findings: &[Finding], provenance: &str) -> Result<Page>
     };
     let lines = study.lines().map(str::to_owned).collect();
     page = page.with(Section::new("What units and rows say").with(Block::List(lines)));
-    let mut section = Section::new("Figures");
     for finding in findings {
-        section = section.with(Block::Text(finding.left()));
-        section = section.with(Block::List(finding.sentences()));
         let (head, rows) = finding.table();
-        let mut table = Table::new(&finding.figure, &head);
-        table.rows = rows
+        let rows: Vec<Vec<String>> = rows
             .into_iter()
-            .map(|row| {
-                row.into_iter()
-                    .map(|cell| cell.replace(['`', '*'], ""))
-                    .collect()
-            })
+            .map(|row| row.iter().map(|cell| plain(cell)).collect())
             .collect();
-        // a product sign is no mark of Markdown
-        section = section.with(Block::Table(table));
-        section = section.with(Block::Figures(figures(finding)?));
+        // two tables, for thirteen columns fit no screen and no paper
+        let part = |caption: &str, columns: &[usize]| {
+            let pick = |row: &[String]| columns.iter().map(|&i| row[i].clone()).collect();
+            let head: Vec<&str> = columns.iter().map(|&i| head[i]).collect();
+            let mut table = Table::new(caption, &head);
+            table.rows = rows.iter().map(|row| pick(row)).collect();
+            Block::Table(table)
+        };
+        let section = Section::new(&finding.left())
+            .with(Block::List(finding.sentences()))
+            .with(part(
+                "Equations and what they are compared with: errors on the runs that were fitted",
+                &[0, 1, 2, 3, 4, 5, 6],
+            ))
+            .with(part(
+                "The same, fitted anew with whole levels and whole materials left out: errors there",
+                &[0, 7, 8, 9, 10, 11, 12],
+            ))
+            .with(Block::Figures(figures(finding)?));
+        page = page.with(section);
     }
-    Ok(page.with(section))
+    Ok(page)
+}
+
+/// A cell without the marks of Markdown; a product sign is none.
+fn plain(cell: &str) -> String {
+    cell.replace("**chosen**", "chosen:")
+        .replace('`', "")
+        .replace(" * ", " · ")
+        .replace('*', "·")
 }
 
 fn figures(finding: &Finding) -> Result<Vec<Figure>> {
@@ -349,4 +366,18 @@ fn figures(finding: &Finding) -> Result<Vec<Figure>> {
             parity,
         )?,
     ])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::plain;
+
+    #[test]
+    fn a_product_on_the_page_is_still_a_product() {
+        let cell = "**chosen** `exp(-1.9 * (E/Y)^(1/8) * (1 - (Vy/V)^0.25)^(12*0.1569))`";
+        assert_eq!(
+            plain(cell),
+            "chosen: exp(-1.9 · (E/Y)^(1/8) · (1 - (Vy/V)^0.25)^(12·0.1569))"
+        );
+    }
 }

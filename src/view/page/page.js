@@ -437,6 +437,9 @@
   view.addEventListener("contextmenu", (event) => { if (event.shiftKey) event.preventDefault(); });
   view.addEventListener("wheel", (event) => { event.preventDefault(); zoom(Math.exp(-0.0015 * event.deltaY)); }, { passive: false });
   window.addEventListener("resize", redraw);
+  // what stands above the controls, which take as many lines as the width asks for
+  const controls = document.querySelector(".controls");
+  new ResizeObserver(() => document.documentElement.style.setProperty("--low", `${controls.offsetHeight}px`)).observe(controls);
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
   legend();
   draw();
