@@ -42,9 +42,9 @@ pub struct DiscoverArgs {
     /// Rows to use, e.g. `--where "rho V^2/Y <= 3.2"`; may be given more than once.
     #[arg(long = "where")]
     pub bounds: Vec<String>,
-    /// Tolerance the runs were planned for: the error of the data.
-    #[arg(long, default_value_t = 0.02)]
-    pub tolerance: f64,
+    /// Error of the data (default: the tolerance the runs were planned for; 0.02 where no column says it).
+    #[arg(long)]
+    pub tolerance: Option<f64>,
     /// Seed of everything that is drawn.
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
@@ -80,10 +80,12 @@ impl Command for DiscoverArgs {
             true => self.results.join("results.csv"),
             false => self.results.clone(),
         };
-        if !(self.tolerance > 0.0 && self.tolerance <= 0.2) {
+        if let Some(tolerance) = self.tolerance
+            && !(tolerance > 0.0 && tolerance <= 0.2)
+        {
             return Err(Error::Argument {
                 argument: "--tolerance".to_owned(),
-                found: self.tolerance.to_string(),
+                found: tolerance.to_string(),
                 allowed: "must lie in (0, 0.2], e.g. 0.02".to_owned(),
             });
         }
@@ -177,7 +179,7 @@ impl Study {
                     "{} of {all} that yield and lie within --where",
                     table.rows()
                 ),
-                allowed: format!("must be at least {FEWEST}"),
+                allowed: format!("must be at least {FEWEST}: run a study of more cases"),
                 place: None,
             });
         }
@@ -198,10 +200,11 @@ impl Study {
         let of: Vec<&Column> = figures.iter().collect();
         let inputs = Inputs::of(&table, &of)?;
         let runs = Runs::of(&table, &inputs);
+        let tolerance = args.tolerance.or(table.tolerance).unwrap_or(TOLERANCE);
         let targets = figures
             .into_iter()
             .map(|figure| {
-                let target = runs.target(&table, &inputs, &figure, args.tolerance)?;
+                let target = runs.target(&table, &inputs, &figure, tolerance)?;
                 Ok((figure, target))
             })
             .collect::<Result<_>>()?;
@@ -234,6 +237,8 @@ impl Study {
             ),
             format!("inputs that vary: {}", list(&self.inputs.free)),
         ];
+        let converted = self.table.converted.iter();
+        lines.extend(converted.map(|(file, here)| format!("{file} is read as {here}")));
         for name in &self.inputs.undetermined {
             lines.push(match self.ruled_out(name) {
                 true => format!("{name} never changes; by units it is in no group"),
@@ -463,5 +468,7 @@ impl Study {
     }
 }
 
+/// Error of data that do not say theirs.
+const TOLERANCE: f64 = 0.02;
 /// Fewest rows with which anything is looked for.
 const FEWEST: usize = 12;

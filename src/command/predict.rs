@@ -194,6 +194,8 @@ fn input(case: &Case, column: &str, velocity: f64) -> Result<f64> {
         "poisson_ratio" => Ok(material.poisson_ratio),
         "radius_m" => Ok(case.radius),
         "velocity_m_s" => Ok(velocity),
+        "angle_deg" => Ok(case.angle.to_degrees()),
+        "friction" => Ok(case.friction),
         _ => constant.ok_or_else(|| Error::Refused {
             what: format!("column `{column}` of the equations"),
             found: "nothing of this name in the case".to_owned(),

@@ -275,7 +275,9 @@ impl Inputs {
                     .map(|c| c.name.clone())
                     .collect::<Vec<_>>()
                     .join(", "),
-                allowed: format!("must make 1 to {MOST} products of powers without unit"),
+                allowed: format!(
+                    "must make 1 to {MOST} products of powers without unit: vary what else has a unit too, as density or modulus"
+                ),
             });
         }
         Ok(Inputs {

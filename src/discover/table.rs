@@ -1,11 +1,12 @@
 //! Table: the columns of a study by name, with the units their names end in.
 
-use super::dimension::Dimension;
+use super::dimension::{Dimension, Named};
+use crate::study::Groups;
 use crate::{Error, Result};
 use std::path::{Path, PathBuf};
 
 /// Figures of an impact: what a study finds. Every other column of numbers is an input.
-pub const FIGURES: [&str; 16] = [
+pub const FIGURES: [&str; 19] = [
     "restitution",
     "max_force_N",
     "max_displacement_m",
@@ -22,10 +23,19 @@ pub const FIGURES: [&str; 16] = [
     "points",
     "steps",
     "wall_s",
+    "predicted_s",
+    "tangential_restitution",
+    "impulse_ratio",
 ];
 
 /// Column with the status of a row.
 const STATUS: &str = "status";
+/// Column with the name of a case, which may be a number.
+const NAME: &str = "name";
+/// Column with the tolerance a run was planned for.
+const TOLERANCE: &str = "tolerance";
+/// Inputs of an impact that determine every group a study writes beside them.
+const RAW: [&str; 3] = ["density_kg_m3", "young_modulus_Pa", "velocity_m_s"];
 
 /// A column of numbers.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,8 +76,12 @@ pub struct Table {
     pub inputs: Vec<Column>,
     /// What they found.
     pub figures: Vec<Column>,
-    /// Columns that hold words, or nothing in any row.
+    /// Columns that hold words, nothing in any row, or a group of the inputs beside them.
     pub left_out: Vec<String>,
+    /// Columns that were converted: as the file names them, and as they are called here, in SI units.
+    pub converted: Vec<(String, String)>,
+    /// Tolerance that all the runs were planned for, where a column says it.
+    pub tolerance: Option<f64>,
     /// Rows that did not end with status ok, which are not here.
     pub failed: usize,
 }
@@ -105,21 +119,31 @@ impl Table {
                 "must be the results.csv of a study",
             )
         };
-        let names: Vec<String> = reader
+        let heads: Vec<String> = reader
             .headers()
             .map_err(broken)?
             .iter()
-            .map(str::to_owned)
+            .map(|name| name.trim().to_owned())
+            .collect();
+        let named: Vec<Option<Named>> = heads.iter().map(|name| Named::of(name)).collect();
+        let names: Vec<String> = heads
+            .iter()
+            .zip(&named)
+            .map(|(head, named)| named.as_ref().map_or(head, |named| &named.name).clone())
             .collect();
         for (i, name) in names.iter().enumerate() {
             if names[..i].contains(name) {
                 return Err(refuse(
                     name,
                     "the column twice".to_owned(),
-                    "every column once",
+                    "every column once, whatever its unit",
                 ));
             }
         }
+        let derived = match RAW.iter().all(|raw| names.iter().any(|name| name == raw)) {
+            true => Groups::column_names(),
+            false => Vec::new(),
+        };
         let rows = reader
             .records()
             .collect::<std::result::Result<Vec<_>, _>>()
@@ -139,9 +163,15 @@ impl Table {
             inputs: Vec::new(),
             figures: Vec::new(),
             left_out: Vec::new(),
+            converted: Vec::new(),
+            tolerance: None,
             failed: rows.len() - good.len(),
         };
         for (at, name) in names.iter().enumerate().filter(|(_, name)| *name != STATUS) {
+            if name == NAME || derived.contains(name) {
+                table.left_out.push(name.clone());
+                continue;
+            }
             let cells: Vec<&str> = good.iter().map(|row| row[at].trim()).collect();
             let void = |cell: &&str| cell.is_empty() || cell.eq_ignore_ascii_case("nan");
             let figure = FIGURES.contains(&&name[..]);
@@ -173,19 +203,61 @@ impl Table {
                     }
                 }
             }
+            if name == TOLERANCE {
+                let column = Column {
+                    name: name.clone(),
+                    dimension: Dimension::default(),
+                    values,
+                };
+                let [low, high] = column.range();
+                if !(low > 0.0 && high <= 0.2) {
+                    return Err(refuse(
+                        name,
+                        format!("{low} to {high}"),
+                        "must lie in (0, 0.2], or be left out",
+                    ));
+                }
+                if !column.constant() {
+                    return Err(refuse(
+                        name,
+                        format!("{low} to {high}"),
+                        "must be the same in every row: runs of one error make an equation",
+                    ));
+                }
+                table.tolerance = column.values.first().copied();
+                continue;
+            }
+            let Some(unit) = &named[at] else {
+                return Err(refuse(
+                    name,
+                    "no unit known at the end of its name".to_owned(),
+                    &format!(
+                        "must end in a unit ({}), or, without one, in one of {}",
+                        Named::known().join(", "),
+                        Dimension::bare().join(", ")
+                    ),
+                ));
+            };
+            if unit.factor != 1.0 {
+                values.iter_mut().for_each(|value| *value *= unit.factor);
+                if let Some(row) = values.iter().position(|value| value.is_infinite()) {
+                    return Err(refuse(
+                        &heads[at],
+                        format!(
+                            "`{}` in row {} of those with status ok",
+                            cells[row],
+                            row + 1
+                        ),
+                        "must be a number in SI units too",
+                    ));
+                }
+            }
+            if *name != heads[at] {
+                table.converted.push((heads[at].clone(), name.clone()));
+            }
             let column = Column {
                 name: name.clone(),
-                dimension: Dimension::of_name(name).ok_or_else(|| {
-                    refuse(
-                        name,
-                        "no unit known at the end of its name".to_owned(),
-                        &format!(
-                            "must end in a unit ({}), or, without one, in one of {}",
-                            Dimension::known().join(", "),
-                            Dimension::bare().join(", ")
-                        ),
-                    )
-                })?,
+                dimension: unit.dimension,
                 values,
             };
             match figure {

@@ -35,7 +35,7 @@ keys! {
      `\"linear\"` where it is not named." {
         samples: samples_key(),
         seed: key("of the hypercube", "≥ 0", "1").or("0"),
-        unusual: key("values that look like a slip of a unit and are meant all the same", "`particle.radius`, `material.*`, `impact.velocities`", "['particle.radius']").or("none"),
+        unusual: key("values that look like a slip of a unit and are meant all the same", "`particle.radius`, `impact.velocities`, or a number of `[material]` as `material.density`", "['particle.radius']").or("none"),
         particle: table("the particles").or(OR_EACH),
         material: table("their materials").or(OR_EACH),
         impact: table("speeds and angles").or(OR_EACH),

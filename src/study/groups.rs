@@ -124,6 +124,20 @@ impl Groups {
         }
     }
 
+    /// Names of [`Groups::columns`], which are the same for every case.
+    #[must_use]
+    pub fn column_names() -> Vec<String> {
+        let any = Groups {
+            flow: None,
+            speed: 1.0,
+            poisson_ratio: 0.3,
+            angle: 0.0,
+            friction: 0.0,
+            tolerance: 0.1,
+        };
+        any.columns().into_iter().map(|(name, _)| name).collect()
+    }
+
     /// Columns of the groups with their values: those that the inputs beside them do not say; NaN where a body has no such
     /// number.
     #[must_use]

@@ -257,7 +257,7 @@ fn a_table_that_cannot_be_used_is_one_clear_error_and_nothing_is_written() {
         ),
         (
             (
-                head().replace("density_kg_m3", "density_lb_ft3"),
+                head().replace("density_kg_m3", "density_lb_yd3"),
                 good.clone(),
             ),
             "no unit known",
@@ -319,6 +319,130 @@ fn a_table_that_cannot_be_used_is_one_clear_error_and_nothing_is_written() {
         assert!(message.contains(part), "no {part:?} in {message}");
         assert!(!folder.path().join("discover").exists(), "{part}");
     }
+}
+
+/// What `study` writes is what `discover` reads: all columns as they stand, and the same table in other units.
+#[test]
+fn a_study_is_run_looked_at_and_predicted_with_its_table_as_it_is() {
+    const STUDY: &str = r#"
+[particle]
+radius = "0.5 mm"
+[material]
+density = ["4 g/cm3", "8 g/cm3"]
+young_modulus = ["50 GPa", "100000 MPa"]
+poisson_ratio = 0.3
+yield_strength = ["500 MPa", "1000 MPa"]
+[impact]
+velocities = ["10 m/s", "40 m/s"]
+[accuracy]
+tolerance = 0.2
+"#;
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    std::fs::write(here.join("s.toml"), STUDY).unwrap();
+    let output = impactlaw(here, &["study", "s.toml", "-q"]);
+    assert!(output.status.success(), "{}", message(&output));
+    let search = ["--size", "2", "--rounds", "0", "--target", "restitution"];
+    let said = |results: &str| {
+        let output = impactlaw(here, &[&["discover", results][..], &search].concat());
+        assert!(output.status.success(), "{}", message(&output));
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let first = said("out/s");
+    assert!(
+        first.contains(
+            "inputs that vary: density_kg_m3, young_modulus_Pa, yield_strength_Pa, velocity_m_s"
+        ),
+        "{first}"
+    );
+    assert!(first.contains("groups: "), "{first}");
+    let results = std::fs::read_to_string(here.join("out/s/results.csv")).unwrap();
+    for column in ["angle_deg", "friction", "hardening_modulus_Pa"] {
+        assert!(results.contains(column));
+        assert!(
+            first.contains(&format!("{column} never changes")),
+            "{first}"
+        );
+    }
+    // the groups say nothing that the inputs beside them do not
+    assert!(!first.contains("_over_"), "{first}");
+
+    // the same in mm, MPa and mm/s, whose end is that of seconds too
+    let mut lines = results.lines().map(str::to_owned).collect::<Vec<_>>();
+    let renamed = [
+        ("yield_strength_Pa", "yield_strength_MPa", 1e-6),
+        ("radius_m", "radius_mm", 1e3),
+        ("velocity_m_s", "velocity_mm_s", 1e3),
+    ];
+    for (si, other, factor) in renamed {
+        let names: Vec<&str> = lines[1].split(',').collect();
+        let at = names.iter().position(|name| *name == si).unwrap();
+        lines[1] = names
+            .iter()
+            .map(|name| if *name == si { other } else { name })
+            .collect::<Vec<_>>()
+            .join(",");
+        for line in &mut lines[2..] {
+            let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
+            cells[at] = (cells[at].parse::<f64>().unwrap() * factor).to_string();
+            *line = cells.join(",");
+        }
+    }
+    std::fs::create_dir(here.join("mm")).unwrap();
+    std::fs::write(here.join("mm/results.csv"), lines.join("\n")).unwrap();
+    let second = said("mm");
+    assert!(
+        second.contains("velocity_mm_s is read as velocity_m_s"),
+        "{second}"
+    );
+    let line = |text: &str, start: &str| {
+        text.lines()
+            .find(|line| line.starts_with(start))
+            .unwrap()
+            .to_owned()
+    };
+    for start in ["groups:", "inputs that vary:", "| **chosen**"] {
+        assert_eq!(line(&first, start), line(&second, start));
+    }
+
+    // a case of the table is predicted; what never changed in it may not change
+    let case = STUDY
+        .replace(r#"["4 g/cm3", "8 g/cm3"]"#, r#""8 g/cm3""#)
+        .replace(r#"["50 GPa", "100000 MPa"]"#, r#""100 GPa""#)
+        .replace(r#"["500 MPa", "1000 MPa"]"#, r#""1000 MPa""#);
+    std::fs::write(here.join("case.toml"), &case).unwrap();
+    let predict = [
+        "predict",
+        "case.toml",
+        "--equation",
+        "out/s/discover/equations.toml",
+    ];
+    let output = impactlaw(here, &predict);
+    assert!(output.status.success(), "{}", message(&output));
+    std::fs::write(here.join("p.csv"), &output.stdout).unwrap();
+    assert_eq!(rows(&here.join("p.csv")).len(), 2);
+    let rough = format!("{case}[wall]\nfriction = 0.3\n");
+    std::fs::write(here.join("case.toml"), rough).unwrap();
+    let output = impactlaw(here, &predict);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        message(&output).contains("friction"),
+        "{}",
+        message(&output)
+    );
+
+    // runs of two tolerances have no one error
+    let mixed = STUDY.replace("tolerance = 0.2", "tolerance = [0.2, 0.1]");
+    std::fs::write(here.join("mixed.toml"), mixed).unwrap();
+    let output = impactlaw(here, &["study", "mixed.toml", "-q", "--out", "out/s"]);
+    assert!(output.status.success(), "{}", message(&output));
+    let output = impactlaw(here, &["discover", "out/s"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        message(&output).contains("`tolerance`: found 0.1 to 0.2"),
+        "{}",
+        message(&output)
+    );
 }
 
 /// The measure of success of the 480 cases, on those in `tests/data`, with a smaller search than by default so that it takes seconds.
