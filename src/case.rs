@@ -59,7 +59,7 @@ keys! {
         wall: table("the rigid wall").or("frictionless"),
         accuracy: table("what the run is planned for"),
         bed: table("a bed that `run` ends with").or("none"),
-        unusual: key("values that look like a slip of a unit and are meant all the same", "`particle.radius`, `material.*`, `impact.velocities`", "['particle.radius']").or("none"),
+        unusual: key("values that look like a slip of a unit and are meant all the same", "`particle.radius`, `impact.velocities`, or a number of `[material]` as `material.density`", "['particle.radius']").or("none"),
     }
 }
 

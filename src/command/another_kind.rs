@@ -19,13 +19,22 @@ pub fn named(error: Error) -> Error {
     let file = quoted(&path.to_string_lossy());
     Error::Refused {
         what: path.display().to_string(),
-        found: format!("a {} file", found.name),
+        found: with_article(found.name),
         allowed: format!(
-            "must be a {} file; this one goes to `{}`",
-            wanted.name,
+            "must be {}; this one goes to `{}`",
+            with_article(wanted.name),
             found.next.replace("FILE", &file)
         ),
     }
+}
+
+/// `a case file`, `an equations file`.
+fn with_article(name: &str) -> String {
+    let article = match name.starts_with(['a', 'e', 'i', 'o', 'u']) {
+        true => "an",
+        false => "a",
+    };
+    format!("{article} {name} file")
 }
 
 /// The kind that the text was read as and the one it is of, if they differ.

@@ -50,6 +50,16 @@ impl Command for CompareArgs {
             .clone()
             .unwrap_or_else(|| Path::new("out").join(&case.name));
         let law = self.law.clone().unwrap_or_else(|| folder.join("law.toml"));
+        if self.law.is_none() && !law.exists() {
+            return Err(Error::Refused {
+                what: law.display().to_string(),
+                found: "no such file".to_owned(),
+                allowed: format!(
+                    "must be there: `impactlaw run {}` makes it, or --law names another, or --impacts the folder of the impacts",
+                    super::quoted(&self.case.to_string_lossy())
+                ),
+            });
+        }
         let file = LawFile::read(&law)?;
         let impacts = read_impacts(&folder, &case)?;
         let out = self.out.clone().unwrap_or(folder);

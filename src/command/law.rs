@@ -86,7 +86,8 @@ fn eval(args: &LawEvalArgs) -> Result<Verdict> {
     let outside = displacements.iter().filter(|d| d.max(most) > limit).count();
     if outside > 0 {
         tracing::warn!(
-            "{outside} of the displacements lie beyond {limit:e} m, the largest the law was fitted to"
+            "{outside} of the displacements lie beyond {}, the largest the law was fitted to",
+            crate::unit::engineering(limit, "m", 4)
         );
     }
     let row = |displacement: f64| EvalRow {

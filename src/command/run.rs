@@ -55,6 +55,9 @@ pub struct RunArgs {
     /// Skip the bed even if the case names a scene.
     #[arg(long)]
     pub no_bed: bool,
+    /// Compare the theories too whose constants are unverified.
+    #[arg(long)]
+    pub unverified: bool,
     /// Random seed (bed insertion), overriding the scene's.
     #[arg(long)]
     pub seed: Option<u64>,
@@ -100,7 +103,14 @@ impl Command for RunArgs {
         context
             .log
             .note("plan", &super::plan::text(&case, &plans(&case)?));
-        let results = stages(&case, scene, &out, (self.seed, interval), context)?;
+        let results = stages(
+            &case,
+            scene,
+            &out,
+            (self.seed, interval),
+            self.unverified,
+            context,
+        )?;
         let page = report(&document, &case, &results, &out, context, started)?;
         let law = out.join("law.toml");
         match self.json {
@@ -124,6 +134,7 @@ fn stages(
     scene: Option<Scene>,
     out: &Path,
     (seed, interval): (Option<u64>, Duration),
+    unverified: bool,
     context: &Context,
 ) -> Result<Results> {
     let provenance = context.provenance(&case.hash);
@@ -138,7 +149,7 @@ fn stages(
     let impacts: Vec<Impact> = simulated.iter().map(|one| one.impact.clone()).collect();
     let mut comparison = Comparison::new(&case.material, case.radius, &impacts);
     compare::add_fitted(&mut comparison, &law)?;
-    comparison.add_theories(false);
+    comparison.add_theories(unverified);
     compare::write(&comparison, out, &provenance)?;
     let bed = scene
         .map(|scene| {

@@ -449,7 +449,10 @@ fn flow_effects(flow: Option<Flow>, plastic: bool) -> Vec<Effect> {
             .iter()
             .filter(|(c, value)| c.effect == name && *value != 0.0)
             .map(|(c, value)| {
-                let text = format!("{} = {value:.4e} {}", c.symbol, c.dimension.unit());
+                let text = match c.dimension.unit() {
+                    "Pa" => format!("{} = {}", c.symbol, engineering(*value, "Pa", 4)),
+                    unit => format!("{} = {value:.4e} {unit}", c.symbol),
+                };
                 text.trim_end().to_owned()
             })
             .collect();

@@ -203,6 +203,17 @@ fn broken_meshes_are_refused() {
         ],
         &["body[0].mesh", "smaller than the grains"],
     );
+    refused_beside(
+        &whole,
+        &[
+            (
+                BALL,
+                "mesh = \"mesh.stl\"\nscale = \"10 m\"\ntolerance = \"0.1 mm\"",
+            ),
+            ("free = { mass = \"1 g\" }", ""),
+        ],
+        &["body[0].mesh", "larger than the box", "`scale`"],
+    );
 }
 
 #[test]

@@ -84,7 +84,7 @@ fn a_file_of_another_kind_is_called_what_it_is_by_every_verb() {
             assert_eq!(output.status.code(), Some(2), "{words:?}: {said}");
             let next = given.next.replace("FILE", &file);
             for part in [
-                format!("found a {} file; must be a {wanted} file", given.name),
+                format!("found {}; must be {}", article(given.name), article(wanted)),
                 format!("`{next}`"),
             ] {
                 assert!(said.contains(&part), "{words:?}: no {part:?} in {said}");
@@ -131,4 +131,14 @@ fn a_slip_within_a_file_of_the_right_kind_is_still_a_slip() {
     std::fs::write(folder.path().join("x.toml"), "[package]\nname = \"x\"\n").unwrap();
     let said = message(&impactlaw(folder.path(), &["run", "x.toml"]));
     assert!(said.contains("unknown field `package`"), "{said}");
+}
+
+/// `a case file`, `an equations file`.
+fn article(name: &str) -> String {
+    let article = if name.starts_with(['a', 'e', 'i', 'o', 'u']) {
+        "an"
+    } else {
+        "a"
+    };
+    format!("{article} {name} file")
 }

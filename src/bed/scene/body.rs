@@ -285,16 +285,26 @@ impl BodyTable {
 
     fn shape(&self, at: &At, smallest_radius: f64, files: &mut Files) -> Result<Shape> {
         let shapes = [
-            self.block.is_some(),
-            self.ball.is_some(),
-            self.cylinder.is_some(),
-            self.plane.is_some(),
-            self.cone.is_some(),
-            self.mesh.is_some(),
+            ("`block`", self.block.is_some()),
+            ("`ball`", self.ball.is_some()),
+            ("`cylinder`", self.cylinder.is_some()),
+            ("`plane`", self.plane.is_some()),
+            ("`cone`", self.cone.is_some()),
+            ("`mesh`", self.mesh.is_some()),
         ];
-        if shapes.iter().filter(|shape| **shape).count() != 1 {
-            let allowed =
-                "must hold one shape: `block`, `ball`, `cylinder`, `plane`, `cone` or `mesh`";
+        let given: Vec<&str> = shapes
+            .iter()
+            .filter(|(_, given)| *given)
+            .map(|(name, _)| *name)
+            .collect();
+        if given.len() != 1 {
+            let has = match given.is_empty() {
+                true => "no shape".to_owned(),
+                false => given.join(" and "),
+            };
+            let allowed = format!(
+                "must hold one shape: `block`, `ball`, `cylinder`, `plane`, `cone` or `mesh`; it has {has}"
+            );
             return Err(at.document.reject(at.key, allowed));
         }
         if self.mesh.is_some() != self.scale.is_some() {

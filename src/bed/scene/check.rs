@@ -3,9 +3,12 @@
 use crate::Result;
 use crate::bed::scene::{Change, Container, Measure, Scene, Stage};
 use crate::dem::bodies::{Mobility, Solid};
+use crate::unit::engineering;
 
 /// Shortest period over the largest radius: twice the distance up to which neighbours are listed.
 const SHORTEST_PERIOD: f64 = 6.0;
+/// Extent of a mesh over the longest edge of the box above which its `scale` is taken for a slip.
+const LARGEST_EXTENT: f64 = 100.0;
 /// What a region may reach beyond its limits, over its edge: rounding of decimal numbers.
 const REGION_SLACK: f64 = 1e-9;
 
@@ -41,10 +44,24 @@ impl Scene {
             ("box.depth", container.depth),
         ] {
             if edge < 4.0 * largest {
-                return Err(document.reject(
-                    key,
-                    "must be at least two grain diameters, or no grain fits without overlap",
-                ));
+                let allowed = format!(
+                    "must be at least two diameters of the largest grain, {}, or no grain fits without overlap",
+                    engineering(4.0 * largest, "m", 3)
+                );
+                return Err(document.reject(key, allowed));
+            }
+        }
+        let room = container.width.max(container.depth);
+        let room = room.max(container.height.unwrap_or(room));
+        for (index, body) in self.bodies.iter().enumerate() {
+            let extent = body.solid.extent().max_element();
+            if extent.is_finite() && extent > LARGEST_EXTENT * room {
+                let allowed = format!(
+                    "must not be so much larger than the box, whose grains would never meet it: {} across against {}; look at `scale`",
+                    engineering(extent, "m", 2),
+                    engineering(room, "m", 2)
+                );
+                return Err(document.reject(&format!("body[{index}].mesh"), allowed));
             }
         }
         if container.periodic[2] {
@@ -62,7 +79,10 @@ impl Scene {
                 .zip(["box.width", "box.depth", "box.height"])
         {
             if periodic && *edge < SHORTEST_PERIOD * largest {
-                let allowed = "must be at least three grain diameters where it is a period, or two grains meet through both sides";
+                let allowed = format!(
+                    "must be at least three grain diameters where it is a period, {} for the largest grain, or two grains meet through both sides",
+                    engineering(SHORTEST_PERIOD * largest, "m", 3)
+                );
                 return Err(document.reject(key, allowed));
             }
         }

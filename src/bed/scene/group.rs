@@ -316,7 +316,11 @@ impl GroupTable {
             return Err(document.reject(&at("spread"), "needs `radius` beside it"));
         }
         match spans_too_much(sizes.limits()) {
-            true => Err(document.reject(key, SPAN)),
+            true => {
+                let [low, high] = sizes.limits();
+                let allowed = format!("{SPAN}; the radii go from {low:.3e} to {high:.3e} m");
+                Err(document.reject(key, allowed))
+            }
             false => Ok(sizes),
         }
     }

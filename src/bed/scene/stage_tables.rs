@@ -185,7 +185,14 @@ pub(super) fn check_stages(
             _ => false,
         };
         if !order_holds {
-            let order = "must follow the order settle, relax, then run, compress and unload as often as wanted";
+            let before = match checked.last() {
+                Some(last) => format!("after \"{}\"", last.name()),
+                None => "first".to_owned(),
+            };
+            let order = format!(
+                "must not come {before}: the order is settle, relax right after it, then run, compress and unload as often as wanted, \
+                 unload after compress"
+            );
             return Err(document.reject(&format!("{at}.kind"), order));
         }
         if matches!(stage, Stage::Compress { .. }) && !cast.boxed {
@@ -203,8 +210,10 @@ fn check_preparation(document: &Document, stages: &[Stage], contact: &Constants)
     match stages.first() {
         None => Err(document.reject("stage", "must hold at least one stage")),
         Some(Stage::Settle { stiffness, .. }) if *stiffness > contact.softening() => {
-            let allowed =
-                "must not be stiffer than the contacts of the scene (`contact.stiffness`)";
+            let allowed = format!(
+                "must be at most {}, the stiffness of the contacts of the scene (`contact.stiffness`)",
+                contact.softening()
+            );
             Err(document.reject("stage[0].stiffness", allowed))
         }
         Some(Stage::Settle { stiffness, .. })
