@@ -13,6 +13,7 @@
 #![warn(missing_docs)]
 #![cfg_attr(not(test), deny(clippy::unwrap_used))]
 
+pub mod atlas;
 pub mod bed;
 pub mod case;
 pub mod cli;

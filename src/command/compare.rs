@@ -6,7 +6,7 @@ use crate::case::Case;
 use crate::compare::Comparison;
 use crate::contact::{LawVisitor, NormalLaw};
 use crate::curve::Particle;
-use crate::law::{Form, LawFile};
+use crate::law::{ATLAS, Form, LawFile};
 use crate::{Error, Result};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 pub struct CompareArgs {
     /// Case file the impacts were made from.
     pub case: PathBuf,
-    /// Law file (default: `law.toml` in the impacts' folder).
+    /// Law file, or `atlas` for the law of the atlas (default: `law.toml` in the impacts' folder).
     #[arg(short, long)]
     pub law: Option<PathBuf>,
     /// Folder that holds the `impact_V*` folders (default: `out/<case name>`).
@@ -36,6 +36,7 @@ pub struct CompareArgs {
 impl Command for CompareArgs {
     const EXAMPLES: &'static [&'static str] = &[
         "impactlaw compare cases/thesis-4-4.toml",
+        "impactlaw compare cases/thesis-4-4.toml --law atlas",
         "impactlaw compare cases/thesis-4-4.toml --law models/elastic-perfectly-plastic-ey80.toml",
     ];
 
@@ -55,12 +56,15 @@ impl Command for CompareArgs {
                 what: law.display().to_string(),
                 found: "no such file".to_owned(),
                 allowed: format!(
-                    "must be there: `impactlaw run {}` makes it, or --law names another, or --impacts the folder of the impacts",
+                    "must be there: `impactlaw run {}` makes it, or --law names another (`--law atlas` needs no file), or --impacts the folder of the impacts",
                     super::quoted(&self.case.to_string_lossy())
                 ),
             });
         }
-        let file = LawFile::read(&law)?;
+        let file = match law == Path::new(ATLAS) {
+            true => LawFile::of_atlas(&case.name, &case.material, case.radius)?,
+            false => LawFile::read(&law)?,
+        };
         let impacts = read_impacts(&folder, &case)?;
         let out = self.out.clone().unwrap_or(folder);
         check_writable(&out)?;

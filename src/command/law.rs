@@ -1,5 +1,6 @@
 //! `law eval`: the force of a law file at given displacements, as CSV.
 
+use super::law_atlas::LawAtlasArgs;
 use super::{Command, Context, Verdict, print};
 use crate::Result;
 use crate::contact::{LawVisitor, NormalLaw};
@@ -10,12 +11,20 @@ use clap::{Args, Subcommand};
 use serde::Serialize;
 use std::path::PathBuf;
 
-/// Work with a law file.
+/// Make a law from the atlas, or work with a law file.
 #[derive(Debug, Args)]
+#[command(
+    args_conflicts_with_subcommands = true,
+    subcommand_negates_reqs = true,
+    arg_required_else_help = true
+)]
 pub struct LawArgs {
-    /// What to do with it.
+    /// What to do with a law file.
     #[command(subcommand)]
-    pub verb: LawVerb,
+    pub verb: Option<LawVerb>,
+    /// The law to make.
+    #[command(flatten)]
+    pub make: Option<LawAtlasArgs>,
 }
 
 /// Verbs on a law file.
@@ -47,6 +56,7 @@ pub struct LawEvalArgs {
 
 impl Command for LawArgs {
     const EXAMPLES: &'static [&'static str] = &[
+        "impactlaw law --young 128GPa --yield 162MPa --poisson 0.343 --density 8960kg/m3 --radius 250um --out copper.toml",
         r#"impactlaw law eval models/sac305-solder.toml --body "250 um" --displacements "1 um" "2 um""#,
     ];
 
@@ -54,9 +64,15 @@ impl Command for LawArgs {
     ///
     /// # Errors
     /// Those of the law file, and [`Error::Argument`] for quantities that are not lengths.
-    fn run(&self, _context: &Context) -> Result<Verdict> {
-        match &self.verb {
-            LawVerb::Eval(args) => eval(args),
+    fn run(&self, context: &Context) -> Result<Verdict> {
+        match (&self.verb, &self.make) {
+            (Some(LawVerb::Eval(args)), _) => eval(args),
+            (None, Some(args)) => args.run(context),
+            (None, None) => Err(Error::Argument {
+                argument: "--young".to_owned(),
+                found: "nothing".to_owned(),
+                allowed: "must be given, or another verb".to_owned(),
+            }),
         }
     }
 }

@@ -4,6 +4,7 @@
 //! A new verb is a new file, its `mod` line and one line of the list of [`Verb`].
 
 mod another_kind;
+pub mod atlas;
 pub mod bed;
 pub mod bed_export;
 pub mod compare;
@@ -17,6 +18,7 @@ pub mod help;
 pub mod impact;
 pub mod init;
 pub mod law;
+pub mod law_atlas;
 pub mod log;
 pub mod man;
 pub mod plan;
@@ -93,6 +95,7 @@ verbs! {
     Study(study::StudyArgs),
     Discover(discover::DiscoverArgs),
     Predict(predict::PredictArgs),
+    Atlas(atlas::AtlasArgs),
     Cost(cost::CostArgs),
     Export(export::ExportArgs),
     Law(law::LawArgs),

@@ -1,9 +1,7 @@
-//! Least squares of a formula's constants by Levenberg and Marquardt.
-//!
-//! argmin has the linear methods, Gauss-Newton and Nelder-Mead, but no damped Gauss-Newton; this is Marquardt's (1963) with his
-//! scaling by the diagonal.
+//! Least squares of a formula's constants.
 
 use super::formula::{Columns, Formula};
+use crate::fit::marquardt::{Stop, minimise};
 use nalgebra::{DMatrix, DVector};
 
 /// What a formula is fitted to.
@@ -28,8 +26,6 @@ pub struct Fitted {
 
 /// Relative fall of the sum of squares below which a step counts as the last.
 const FALL: f64 = 1e-7;
-/// Damping at the start, and past which no step helps.
-const DAMPING: [f64; 2] = [1e-2, 1e9];
 
 /// Sum of squares; infinite where a value is none.
 #[must_use]
@@ -80,7 +76,7 @@ fn normal(formula: &Formula, data: &Data<'_>) -> (DMatrix<f64>, DVector<f64>, f6
 pub fn fit(formula: &Formula, data: &Data<'_>, steps: usize) -> Option<Fitted> {
     let mut formula = formula.clone();
     formula.settle();
-    let mut best = chi2(&formula.values(data.columns), data);
+    let best = chi2(&formula.values(data.columns), data);
     if !best.is_finite() {
         return None;
     }
@@ -91,40 +87,19 @@ pub fn fit(formula: &Formula, data: &Data<'_>, steps: usize) -> Option<Fitted> {
             chi2: best,
         });
     }
-    let mut damping = DAMPING[0];
-    for _ in 0..steps {
-        let (matrix, right, _) = normal(&formula, data);
-        if !matrix.iter().chain(right.iter()).all(|x| x.is_finite()) {
-            break;
-        }
-        let before = best;
-        while damping < DAMPING[1] {
-            let mut damped = matrix.clone();
-            for i in 0..which.len() {
-                damped[(i, i)] += damping * matrix[(i, i)].max(1e-12);
-            }
-            let step = damped.cholesky().map(|factor| factor.solve(&right));
-            if let Some(step) = step {
-                let mut trial = formula.clone();
-                let moved: Vec<f64> = which
-                    .iter()
-                    .zip(step.iter())
-                    .map(|(&i, s)| formula.numbers[i] + s)
-                    .collect();
-                trial.set(&moved);
-                let cost = chi2(&trial.values(data.columns), data);
-                if cost < best {
-                    (formula, best) = (trial, cost);
-                    damping = (damping * 0.2).max(1e-12);
-                    break;
-                }
-            }
-            damping *= 5.0;
-        }
-        if !(before - best > FALL * before) {
-            break;
-        }
-    }
+    let start: Vec<f64> = which.iter().map(|&i| formula.numbers[i]).collect();
+    let at = |numbers: &[f64]| {
+        let mut there = formula.clone();
+        there.set(numbers);
+        there
+    };
+    let stop = Stop { steps, fall: FALL };
+    let cost = |numbers: &[f64]| chi2(&at(numbers).values(data.columns), data);
+    let (found, best) = minimise(&start, stop, cost, |numbers| {
+        let (matrix, right, _) = normal(&at(numbers), data);
+        Some((matrix, right))
+    });
+    formula.set(&found);
     Some(Fitted {
         formula,
         chi2: best,

@@ -241,6 +241,43 @@ fn below_hertz([s_0, s_1]: [f64; 2], f: f64, slope: f64) -> f64 {
     slope.min(most).min(3.0 * f / s_1).max(least)
 }
 
+/// Share of the steepest monotone slope that is used, so that rounding does not carry a slope beyond it.
+const WITHIN: f64 = 1.0 - 1e-12;
+
+/// Spline from Hertz's curve at `hertz_to` through knots at `flattenings`, between which the force rises with the mean `exponents`;
+/// slopes follow `knot_exponent` and are kept within the box that makes the spline monotone. `None` where it is not admissible.
+#[must_use]
+pub fn through(hertz_to: f64, flattenings: &[f64], exponents: &[f64]) -> Option<SplineLoading> {
+    let mut forces = vec![hertz_to.powf(1.5)];
+    let mut low = hertz_to;
+    for (w, e) in flattenings.iter().zip(exponents) {
+        forces.push(forces[forces.len() - 1] * (w / low).powf(*e));
+        low = *w;
+    }
+    let start = std::iter::once(hertz_to);
+    let w: Vec<f64> = start.chain(flattenings.iter().copied()).collect();
+    let s: Vec<f64> = w.iter().map(|w| w.sqrt()).collect();
+    let secant = |k: usize| (forces[k] - forces[k - 1]) / (s[k] - s[k - 1]);
+    let knot = |k: usize| {
+        let mut slope = 2.0 * knot_exponent(exponents, k) * forces[k] / s[k];
+        if k == 1 {
+            slope = below_hertz([s[0], s[1]], forces[1], slope);
+        }
+        let after = if k + 1 < w.len() {
+            secant(k + 1)
+        } else {
+            f64::INFINITY
+        };
+        Knot {
+            flattening: w[k],
+            force: forces[k],
+            slope: slope.min(WITHIN * 3.0 * secant(k).min(after)) / (2.0 * s[k]),
+        }
+    };
+    let knots: Vec<Knot> = (1..w.len()).map(knot).collect();
+    SplineLoading::new(hertz_to, &knots).ok()
+}
+
 impl Form for SplineFit {
     type Curve = SplineLoading;
 
@@ -255,40 +292,10 @@ impl Form for SplineFit {
         exponents.chain(inertia).chain(unloading).collect()
     }
 
-    /// Slopes follow `knot_exponent` and are kept within the box that makes the spline monotone.
     fn curve(&self, free: &[f64]) -> Option<SplineLoading> {
-        let exponents: Vec<f64> = free[..self.flattenings.len()]
-            .iter()
-            .map(|t| t.exp())
-            .collect();
-        let mut forces = vec![self.hertz_to.powf(1.5)];
-        let mut low = self.hertz_to;
-        for (w, e) in self.flattenings.iter().zip(&exponents) {
-            forces.push(forces[forces.len() - 1] * (w / low).powf(*e));
-            low = *w;
-        }
-        let start = std::iter::once(self.hertz_to);
-        let w: Vec<f64> = start.chain(self.flattenings.iter().copied()).collect();
-        let s: Vec<f64> = w.iter().map(|w| w.sqrt()).collect();
-        let secant = |k: usize| (forces[k] - forces[k - 1]) / (s[k] - s[k - 1]);
-        let knot = |k: usize| {
-            let mut slope = 2.0 * knot_exponent(&exponents, k) * forces[k] / s[k];
-            if k == 1 {
-                slope = below_hertz([s[0], s[1]], forces[1], slope);
-            }
-            let after = if k + 1 < w.len() {
-                secant(k + 1)
-            } else {
-                f64::INFINITY
-            };
-            Knot {
-                flattening: w[k],
-                force: forces[k],
-                slope: slope.min(3.0 * secant(k).min(after)) / (2.0 * s[k]),
-            }
-        };
-        let knots: Vec<Knot> = (1..w.len()).map(knot).collect();
-        SplineLoading::new(self.hertz_to, &knots).ok()
+        let exponents = free[..self.flattenings.len()].iter().map(|t| t.exp());
+        let exponents: Vec<f64> = exponents.collect();
+        through(self.hertz_to, &self.flattenings, &exponents)
     }
 
     fn units(&self) -> YieldUnits {

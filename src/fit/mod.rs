@@ -2,6 +2,7 @@
 
 pub mod confidence;
 pub mod form;
+pub mod marquardt;
 pub mod pulse;
 pub mod quality;
 pub mod residual;

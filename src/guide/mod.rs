@@ -19,6 +19,7 @@ chapters! {
     bed, "bed.md";
     study, "study.md";
     discover, "discover.md";
+    atlas, "atlas.md";
     accuracy, "accuracy.md";
     solver, "solver.md";
     measured, "measured.md";

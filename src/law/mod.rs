@@ -13,6 +13,9 @@ use crate::theory::Theory;
 use crate::theory::hertz::Hertz;
 use crate::{Error, Result};
 
+/// Name of the law that the atlas has for a material.
+pub const ATLAS: &str = "atlas";
+
 /// Law of a law file.
 #[derive(Debug, Clone, PartialEq)]
 pub enum FittedLaw {
@@ -98,11 +101,16 @@ impl AnyLaw {
         self.visit(Ask).ok().flatten()
     }
 
-    /// Law called `name`: `fitted` is that of `file`, any other name a theory of `material`.
+    /// Law called `name`: `fitted` is that of `file`, [`ATLAS`] that of the atlas, any other name a theory of `material`.
     ///
     /// # Errors
-    /// [`Error::Refused`] for an unknown name, or `fitted` without a law file.
+    /// [`Error::Refused`] for an unknown name, `fitted` without a law file, or a material that lies outside the atlas.
     pub fn named(name: &str, file: Option<&LawFile>, material: &Material) -> Result<Self> {
+        if name == ATLAS {
+            return Ok(AnyLaw::Fitted(
+                LawFile::of_atlas(ATLAS, material, 1.0)?.law()?,
+            ));
+        }
         if name != "fitted" {
             return Ok(AnyLaw::Theory(name.parse()?, *material));
         }

@@ -7,6 +7,7 @@ use super::table::{
     YieldTable,
 };
 use crate::Result;
+use crate::atlas::Atlas;
 use crate::case::Case;
 use crate::contact::NormalLaw;
 use crate::contact::loading::{Loading, SoftenedHertz};
@@ -18,12 +19,13 @@ use crate::fit::quality::Quality;
 use crate::fit::{Fit, FittedForm, Outcome, left_out_bound, threshold};
 use crate::material::flow::FlowConstants;
 use crate::material::{Material, YIELD_PRESSURE_RATIO};
+use sha2::{Digest, Sha256};
 use std::path::Path;
 
 /// What a person who opens a law file needs to know; the equations are those of `contact::loading`, `contact::spline`,
 /// `contact::unloading` and `contact::inertia`.
 const HEADER: &str = "\
-Normal contact law of one body pressed by a rigid plane, fitted to simulated impacts.
+Normal contact law of one body pressed by a rigid plane, fitted to simulated impacts (of an atlas: those of other materials).
 Two equal spheres: F(delta/2). Two bodies: in series, delta = delta_1 + delta_2, F_1 = F_2.
 With R the radius of the body: w = (delta/R) / yield_point.displacement_over_radius,
 F = R^2 yield_point.force_over_radius2_Pa f(w).
@@ -103,6 +105,58 @@ impl LawFile {
         }
         file.warnings = file.what_to_know(fit);
         file
+    }
+
+    /// Law file of a material from the atlas: no impact of its own was run. `radius` (m) is that of its reference impacts.
+    ///
+    /// # Errors
+    /// Those of [`Atlas::built_in`] and [`Atlas::law`].
+    pub fn of_atlas(name: &str, material: &Material, radius: f64) -> Result<Self> {
+        let atlas = Atlas::built_in()?;
+        let law = atlas.law(material)?;
+        let units = law.units();
+        let velocities = atlas.velocities(material);
+        let coefficient = law.inertia().coefficient();
+        let mut file = LawFile {
+            schema: SCHEMA,
+            name: plain(name),
+            form: Form::Spline,
+            warnings: vec![atlas.provenance(material)],
+            material: material_table(material),
+            yield_point: Some(YieldTable {
+                pressure_ratio: YIELD_PRESSURE_RATIO,
+                displacement_over_radius: units.flattening,
+                force_over_radius2_pa: units.force,
+            }),
+            valid: ValidTable {
+                displacement_over_radius_max: law.valid_to(),
+                velocity_min_m_s: velocities[0],
+                velocity_max_m_s: velocities[1],
+            },
+            thresholds: None,
+            provenance: ProvenanceTable {
+                program: plain(&atlas.program),
+                case: plain(name),
+                case_sha256: String::new(),
+                radius_m: radius,
+                skipped_velocities_m_s: Vec::new(),
+            },
+            hertz: None,
+            closed_form: None,
+            spline: Some(SplineTable {
+                hertz_to: law.loading().departure(),
+                knots: knots(law.loading()),
+                inertia: (coefficient > 0.0).then_some(coefficient),
+                unloading: unloading_table(law.unloading()),
+                intervals: None,
+                quality: Vec::new(),
+                left_out: Vec::new(),
+            }),
+        };
+        // what its tables say stands for the case that it has not
+        let sum = Sha256::digest(file.text()?);
+        file.provenance.case_sha256 = sum.iter().map(|byte| format!("{byte:02x}")).collect();
+        Ok(file)
     }
 
     /// Impacts that were not used, a form that was not found, left-out speeds that the form in use misses.
@@ -291,12 +345,16 @@ fn closed_form_table(form: &FittedForm<SoftenedHertz>) -> ClosedFormTable {
     }
 }
 
+fn knots(curve: &SplineLoading) -> Vec<[f64; 3]> {
+    let rows = curve.knots().iter();
+    rows.map(|k| [k.flattening, k.force, k.slope]).collect()
+}
+
 fn spline_table(form: &FittedForm<SplineLoading>) -> SplineTable {
     let curve = form.law.loading();
-    let knots = curve.knots().iter();
     SplineTable {
         hertz_to: curve.departure(),
-        knots: knots.map(|k| [k.flattening, k.force, k.slope]).collect(),
+        knots: knots(curve),
         inertia: inertia(form),
         unloading: unloading_table(form.law.unloading()),
         intervals: form.intervals.as_ref().map(|all| SplineIntervals {

@@ -262,7 +262,8 @@ pub const READERS: &[Reader] = &[
 ];
 
 /// Files of `src` that read, but nothing that anyone writes for the program or that it keeps.
-const OTHERS: [(&str, &str); 4] = [
+const OTHERS: [(&str, &str); 5] = [
+    ("atlas/mod.rs", "the atlas, which is part of the program"),
     (
         "command/study_merge.rs",
         "a kept run that was just read and is copied as it is",

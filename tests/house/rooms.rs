@@ -21,6 +21,7 @@ const ROOMS: Order = &[
     &["impact"],
     &["theory"],
     &["fit"],
+    &["atlas"],
     &["law"],
     &["compare", "cost", "discover"],
     &["dem"],

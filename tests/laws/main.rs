@@ -1,5 +1,6 @@
 //! Contact laws: fitted ones, published ones, and the impacts that either gives.
 
+mod atlas;
 mod examples;
 mod fit_finite_element;
 mod fit_synthetic;

@@ -6,7 +6,7 @@ use crate::case::ElasticTable;
 use crate::document::Document;
 use crate::document::keys::{key, keys};
 use crate::error::must_be_one_of;
-use crate::law::{AnyLaw, LawFile};
+use crate::law::{ATLAS, AnyLaw, LawFile};
 use crate::material::Material;
 use crate::material::flow::{FlowConstants, InText, WithFlow};
 use crate::theory::Theory;
@@ -36,7 +36,7 @@ keys! {
         density: key("density", "> 0", "'2500 kg/m3'").or("of the law file"),
         young_modulus: key("Young's modulus", "> 0", "'70 GPa'").or("of the law file"),
         poisson_ratio: key("Poisson's ratio", "[0, 0.5)", "0.22").or("of the law file"),
-        law: key("normal law of the material", "a law file, `\"fitted\"` (that of `--law`) or a theory", "'hertz'").or("`laws` decides"),
+        law: key("normal law of the material", "a law file, `\"fitted\"` (that of `--law`), `\"atlas\"` or a theory", "'hertz'").or("`laws` decides"),
     }
 }
 
@@ -47,7 +47,7 @@ pub enum LawChoice {
     Listed,
     /// The law file given beside the scene.
     Given,
-    /// A law file named in the scene.
+    /// A law file named in the scene, or the one that the atlas makes.
     File(Box<LawFile>),
     /// A theory.
     Theory(Theory),
@@ -105,7 +105,11 @@ impl ElasticAndLaw {
         name: &str,
         key: &str,
     ) -> Result<GrainMaterial> {
-        let law = self.law(document, key)?;
+        let from_atlas = self.law.as_deref() == Some(ATLAS);
+        let mut law = match from_atlas {
+            true => LawChoice::Listed,
+            false => self.law(document, key)?,
+        };
         let bare = self.density.is_none()
             && self.young_modulus.is_none()
             && self.poisson_ratio.is_none()
@@ -127,6 +131,10 @@ impl ElasticAndLaw {
                 .check(flow, document, key)?
             }
         };
+        if from_atlas {
+            let file = from_the_atlas(document, &format!("{key}.law"), name, &material)?;
+            law = LawChoice::File(Box::new(file));
+        }
         let material = GrainMaterial {
             name: name.to_owned(),
             key: key.to_owned(),
@@ -151,7 +159,7 @@ impl ElasticAndLaw {
         if !law.ends_with(".toml") {
             let names = Theory::ALL.map(Theory::name).join(", ");
             let allowed = format!(
-                "must be a law file (\"../models/sac305-solder.toml\"), \"{FITTED}\" or one of {names}"
+                "must be a law file (\"../models/sac305-solder.toml\"), \"{FITTED}\", \"{ATLAS}\" or one of {names}"
             );
             return Err(document.reject(&key, allowed));
         }
@@ -167,6 +175,26 @@ impl ElasticAndLaw {
         })?;
         Ok(LawChoice::File(Box::new(file)))
     }
+}
+
+/// Law file that the atlas makes for a material; what it refuses is said at `key`.
+fn from_the_atlas(
+    document: &Document,
+    key: &str,
+    name: &str,
+    material: &Material,
+) -> Result<LawFile> {
+    LawFile::of_atlas(name, material, 1.0).map_err(|error| match error {
+        Error::Refused {
+            what,
+            found,
+            allowed,
+        } => document.reject(
+            key,
+            format!("is not for this material: {what}, found {found}, {allowed}"),
+        ),
+        other => other,
+    })
 }
 
 impl GrainMaterial {
@@ -197,7 +225,7 @@ impl GrainMaterial {
         match (&self.law, run) {
             (LawChoice::Theory(own), OWN) => theory(*own),
             (_, FITTED | OWN) => self.fitted(given),
-            (_, listed) => theory(listed.parse()?),
+            (_, listed) => AnyLaw::named(listed, None, &self.material),
         }
     }
 
@@ -239,12 +267,16 @@ pub(super) fn check_laws(
     }
     for (index, law) in laws.iter().enumerate() {
         let key = format!("laws[{index}]");
-        if law != FITTED && law.parse::<Theory>().is_err() {
-            let names = [FITTED].into_iter().chain(Theory::ALL.map(Theory::name));
+        if law != FITTED && law != ATLAS && law.parse::<Theory>().is_err() {
+            let names = [FITTED, ATLAS].into_iter();
+            let names = names.chain(Theory::ALL.map(Theory::name));
             return Err(document.reject(&key, must_be_one_of(names)));
         }
         if laws[..index].contains(law) {
             return Err(document.reject(&key, "must be named once"));
+        }
+        for own in materials.iter().filter(|_| law == ATLAS) {
+            from_the_atlas(document, &key, &own.name, &own.material)?;
         }
         let applies = |material: &Material| {
             law.parse::<Theory>()

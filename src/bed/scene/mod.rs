@@ -132,7 +132,7 @@ struct SceneFile {
 
 keys! {
     SceneFile {
-        laws: key("laws the scene is run under, one after the other from one packing", "`\"fitted\"` or a theory, each once", "['fitted', 'hertz']").or("every material's own `law`"),
+        laws: key("laws the scene is run under, one after the other from one packing", "`\"fitted\"`, `\"atlas\"` or a theory, each once", "['fitted', 'hertz']").or("every material's own `law`"),
         seed: key("of everything random", "≥ 0", "1"),
         gravity: key("along -z, or a vector", "magnitude ≥ 0", "'9.81 m/s2'"),
         periodic: key("sides of the box that are periodic instead of walls; along z without gravity along it", "`\"x\"`, `\"y\"`, `\"z\"`", "['x', 'y']").or("none"),
