@@ -13,6 +13,7 @@ pub mod place;
 pub use fit::{Reference, Score, error_of_restitution};
 pub use place::{Place, Range};
 
+use crate::contact::NormalLaw;
 use crate::contact::elastoplastic::{Elastoplastic, Spline};
 use crate::contact::rebound::rebound;
 use crate::fit::form::{through, unloading};
@@ -111,7 +112,10 @@ impl Atlas {
             let law = assemble(&free, &scale, DEEPEST)?;
             let [slow, fast] = self.velocities(material);
             let most = rebound(&law, scale.radius, scale.mass, fast).max_displacement;
-            Some(assemble(&free, &scale, most)?.from_velocity(slow, material.density))
+            let law = assemble(&free, &scale, most)?.from_velocity(slow, material.density);
+            // the density to the last digit, as a law file has it
+            let coefficient = law.inertia().coefficient();
+            law.with_inertia(coefficient, material.density).ok()
         });
         law.ok_or_else(|| Error::Refused {
             what: "material".to_owned(),

@@ -31,7 +31,7 @@ pub struct LawArgs {
 #[derive(Debug, Subcommand)]
 #[allow(missing_docs)] // each verb is described by the doc comment of its arguments
 pub enum LawVerb {
-    #[command(after_help = super::examples(LawArgs::EXAMPLES))]
+    #[command(after_help = super::examples(&LawArgs::EXAMPLES[1..]))]
     Eval(LawEvalArgs),
 }
 

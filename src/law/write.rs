@@ -25,7 +25,7 @@ use std::path::Path;
 /// What a person who opens a law file needs to know; the equations are those of `contact::loading`, `contact::spline`,
 /// `contact::unloading` and `contact::inertia`.
 const HEADER: &str = "\
-Normal contact law of one body pressed by a rigid plane, fitted to simulated impacts (of an atlas: those of other materials).
+Normal contact law of one body pressed by a rigid plane, fitted to simulated impacts.
 Two equal spheres: F(delta/2). Two bodies: in series, delta = delta_1 + delta_2, F_1 = F_2.
 With R the radius of the body: w = (delta/R) / yield_point.displacement_over_radius,
 F = R^2 yield_point.force_over_radius2_Pa f(w).

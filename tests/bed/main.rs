@@ -11,6 +11,7 @@ mod fast_bodies;
 mod files;
 mod fine_grain;
 mod grain_files;
+mod grain_files_in_scenes;
 mod grain_files_refused;
 #[path = "../support/grain_lists.rs"]
 mod grain_lists;

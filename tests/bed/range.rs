@@ -8,7 +8,10 @@ use std::path::Path;
 /// Two equal solder balls that meet at twice `speed` (m/s), each as if it hit a wall at `speed`, at the true stiffness; a law that
 /// rests on impacts of 5 to 30 m/s.
 fn head_on(speed: f64, more: &str) -> BedReport {
-    let law = concat!(env!("CARGO_MANIFEST_DIR"), "/models/sac305-solder.toml");
+    let law = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/tests/data/laws/sac305-5-to-30.toml"
+    );
     let folder = tempfile::tempdir().unwrap();
     let balls = format!(
         "x_m,y_m,z_m,radius_m,vx_m_s,vy_m_s,vz_m_s\n0,0,0,250e-6,{speed},0,0\n510e-6,0,0,250e-6,-{speed},0,0\n"
@@ -85,7 +88,10 @@ fn softer_contacts_are_flattened_further_and_the_flattening_decides() {
 
 #[test]
 fn a_page_shows_the_warnings_of_its_run() {
-    let law = concat!(env!("CARGO_MANIFEST_DIR"), "/models/sac305-solder.toml");
+    let law = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/tests/data/laws/sac305-5-to-30.toml"
+    );
     let text = format!(
         "seed = 1\ngravity = \"9.81 m/s2\"\n[materials.solder]\nlaw = '{law}'\n[[grains]]\nmaterial = \"solder\"\ncount = 4\nradius = \"250 um\"\n\
          velocity = [\"0 m/s\", \"0 m/s\", \"-0.4 m/s\"]\n[contact]\nrestitution = 0.8\n[box]\nwidth = \"2 mm\"\ndepth = \"2 mm\"\nheight = \"6 mm\"\n\
