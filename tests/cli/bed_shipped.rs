@@ -44,7 +44,6 @@ fn the_oedometer_closes() {
 }
 
 #[test]
-#[ignore = "70 s of one core"]
 fn the_peening_closes() {
     closes("bed-peen");
 }
