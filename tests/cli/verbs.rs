@@ -388,6 +388,8 @@ fn a_run_ends_with_its_figures_for_people_and_for_programs_and_every_verb_leaves
     assert!(json["worst_error"].as_f64().unwrap() < 0.2);
     assert!(json["comparison"].as_array().unwrap().len() > 3);
     assert_eq!(printed(&["run", "case.toml", "--out", "out", "-q"]), "");
+    let unverified = printed(&["run", "case.toml", "--out", "out", "--unverified"]);
+    assert!(unverified.contains("| stronge"), "{unverified}");
     for verb in ["fit", "compare"] {
         printed(&[verb, "case.toml", "--impacts", "out"]);
     }
