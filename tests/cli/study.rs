@@ -39,8 +39,10 @@ fn equal_groups_run_once_and_a_second_call_repeats_nothing() {
     let first = std::fs::read_to_string(&results).unwrap();
     let rows: Vec<&str> = first.lines().filter(|l| !l.starts_with('#')).collect();
     assert!(rows[0].starts_with(
-        "name,density_kg_m3,young_modulus_Pa,yield_strength_Pa,hardening_modulus_Pa,poisson_ratio,radius_m,angle_deg,friction,tolerance,\
-         young_over_yield,rho_V2_over_E,rho_V2_over_Y,V_over_Vy,hardening_over_young,velocity_m_s,restitution,max_force_N"
+        "name,density_kg_m3,young_modulus_Pa,yield_strength_Pa,hardening_modulus_Pa,\
+         hardening_coefficient_Pa,hardening_exponent,saturation_stress_Pa,saturation_exponent,\
+         poisson_ratio,radius_m,angle_deg,friction,tolerance,young_over_yield,rho_V2_over_E,rho_V2_over_Y,V_over_Vy,\
+         hardening_over_young,hardening_coefficient_over_young,saturation_stress_over_young,velocity_m_s,restitution,max_force_N"
     ));
     assert!(rows[0].ends_with("predicted_s,status"));
     assert_eq!(rows.len(), 5);
