@@ -4,7 +4,7 @@ use super::form::Form;
 use super::pulse::Pulse;
 use super::residual::Objective;
 use super::run::Run;
-use super::solve::polish;
+use super::solve::{RESAMPLE, polish};
 use crate::Result;
 use crate::contact::NormalLaw;
 use crate::curve::restitution_error;
@@ -59,7 +59,7 @@ pub fn intervals<F: Form>(form: &F, runs: &[Run], free: &[f64]) -> Option<Vec<[f
                 runs,
                 weights,
             };
-            constants(form, &polish(&objective, free).ok()?)
+            constants(form, &polish(&objective, free, RESAMPLE).ok()?)
         })
         .collect::<Vec<Option<Vec<f64>>>>();
     let refits: Vec<Vec<f64>> = refits.into_iter().flatten().collect();

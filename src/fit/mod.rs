@@ -10,7 +10,7 @@ pub mod run;
 pub mod solve;
 
 use crate::case::Case;
-use crate::contact::elastoplastic::{Elastoplastic, YieldUnits};
+use crate::contact::elastoplastic::Elastoplastic;
 use crate::contact::loading::SoftenedHertz;
 use crate::contact::spline::SplineLoading;
 use crate::curve::Impact;
@@ -187,12 +187,10 @@ fn elastic(case: &Case, runs: &[Run], scale: &Scale) -> Outcome {
 
 /// Both forms, or the one that is found, with the reason why the other is not.
 fn fit_both(runs: &[Run], scale: &Scale) -> Result<(Outcome, Option<String>)> {
-    let units = scale.units();
-    let of_closed_form = |runs: &[Run], density| closed_form(runs, units, density);
-    let of_spline = |runs: &[Run], density| spline(runs, units, density);
+    let found = ClosedForms::of(runs, scale)?;
     let (closed_form, spline) = rayon::join(
-        || choose(runs, scale, of_closed_form),
-        || choose(runs, scale, of_spline),
+        || choose(runs, scale, |runs, inertia| found.again(runs, inertia)),
+        || choose(runs, scale, |runs, inertia| spline(&found, runs, inertia)),
     );
     let missing = match (&closed_form, &spline) {
         (Err(error), Ok(_)) => Some(format!("closed form: {error}")),
@@ -210,60 +208,116 @@ fn fit_both(runs: &[Run], scale: &Scale) -> Result<(Outcome, Option<String>)> {
     Ok((outcome, missing))
 }
 
-/// Closed form and its free numbers for `runs`, with an inertia term if a density is given.
-fn closed_form(
-    runs: &[Run],
-    units: YieldUnits,
-    density: Option<f64>,
-) -> Result<(ClosedFormFit, Vec<f64>)> {
-    let form = ClosedFormFit {
-        units,
-        density,
+/// Whether a form has the inertia term.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Inertia {
+    Without,
+    With,
+}
+
+/// Closed forms of all impacts, without and with the inertia term: the search from afar is made once for each.
+struct ClosedForms<'a> {
+    runs: &'a [Run],
+    scale: &'a Scale,
+    without: Vec<f64>,
+    with: Option<Vec<f64>>,
+}
+
+impl<'a> ClosedForms<'a> {
+    fn of(runs: &'a [Run], scale: &'a Scale) -> Result<Self> {
+        let search = |inertia| {
+            solve::solve(&Objective {
+                form: &closed_form(runs, scale, inertia),
+                runs,
+                weights: &vec![1.0; runs.len()],
+            })
+        };
+        // a single speed cannot tell inertia from hardness; nor is it an error that no law has the term
+        let (without, with) = rayon::join(
+            || search(Inertia::Without),
+            || {
+                (runs.len() > 1)
+                    .then(|| search(Inertia::With).ok())
+                    .flatten()
+            },
+        );
+        Ok(ClosedForms {
+            runs,
+            scale,
+            without: without?,
+            with,
+        })
+    }
+
+    /// Closed form and its free numbers for `runs`: those of all impacts, or, where a speed is left out, what lies downhill of
+    /// them.
+    fn again(&self, runs: &[Run], inertia: Inertia) -> Result<(ClosedFormFit, Vec<f64>)> {
+        let form = closed_form(runs, self.scale, inertia);
+        let free = match inertia {
+            Inertia::Without => &self.without,
+            Inertia::With => self.with.as_ref().ok_or_else(inadmissible)?,
+        };
+        if runs.len() == self.runs.len() {
+            return Ok((form, free.clone()));
+        }
+        let objective = Objective {
+            form: &form,
+            runs,
+            weights: &vec![1.0; runs.len()],
+        };
+        let start = solve::admissible(&objective, free)?;
+        Ok((form, solve::polish(&objective, &start, solve::LAW)?))
+    }
+}
+
+fn closed_form(runs: &[Run], scale: &Scale, inertia: Inertia) -> ClosedFormFit {
+    ClosedFormFit {
+        units: scale.units(),
+        density: (inertia == Inertia::With).then(|| scale.density()),
         runs: runs.len(),
-    };
-    let weights = vec![1.0; runs.len()];
-    let free = solve::solve(&Objective {
-        form: &form,
-        runs,
-        weights: &weights,
-    })?;
-    Ok((form, free))
+    }
 }
 
 /// Spline and its free numbers for `runs`, started from the closed form.
-fn spline(runs: &[Run], units: YieldUnits, density: Option<f64>) -> Result<(SplineFit, Vec<f64>)> {
-    let (form, free) = closed_form(runs, units, density)?;
+fn spline(
+    found: &ClosedForms<'_>,
+    runs: &[Run],
+    inertia: Inertia,
+) -> Result<(SplineFit, Vec<f64>)> {
+    let (form, free) = found.again(runs, inertia)?;
     let law = form.law(&free, f64::MAX).ok_or_else(inadmissible)?;
     let knotted = SplineFit::new(&law, &form, &free, runs);
-    let weights = vec![1.0; runs.len()];
     let objective = Objective {
         form: &knotted,
         runs,
-        weights: &weights,
+        weights: &vec![1.0; runs.len()],
     };
     let start = solve::admissible(&objective, &knotted.start())?;
-    let free = solve::polish(&objective, &start)?;
+    let free = solve::polish(&objective, &start, solve::LAW)?;
     Ok((knotted, free))
 }
 
-/// The fit of a form to `runs`, with an inertia term if that is worth it; `again` makes a fit for a density.
+/// The fit of a form to `runs`, with an inertia term if that is worth it; `again` makes a fit without or with it.
 fn choose<F, B>(runs: &[Run], scale: &Scale, again: B) -> Result<FittedForm<F::Curve>>
 where
     F: Form,
-    B: Fn(&[Run], Option<f64>) -> Result<(F, Vec<f64>)> + Sync,
+    B: Fn(&[Run], Inertia) -> Result<(F, Vec<f64>)> + Sync,
 {
-    let (still, free) = again(runs, None)?;
+    let (still, free) = again(runs, Inertia::Without)?;
     if runs.len() > 1 {
-        let density = Some(scale.density());
         let bound = (1.0 - INERTIA_GAIN) * worst(&still, &free, runs, scale)?;
         // a form that finds no law with the term has none
-        if let Ok((moving, more)) = again(runs, density)
+        if let Ok((moving, more)) = again(runs, Inertia::With)
             && worst(&moving, &more, runs, scale).is_ok_and(|worst| worst <= bound)
         {
-            return finish(&moving, &more, runs, scale, |runs| again(runs, density));
+            return finish(&moving, &more, runs, scale, |runs| {
+                again(runs, Inertia::With)
+            });
         }
     }
-    finish(&still, &free, runs, scale, |runs| again(runs, None))
+    finish(&still, &free, runs, scale, |runs| {
+        again(runs, Inertia::Without)
+    })
 }
 
 /// Law of a solution, valid as far as the runs go.

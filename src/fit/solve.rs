@@ -15,8 +15,10 @@ const SIMPLEX_STEPS: u64 = 250;
 const SIMPLEX_SPREAD: f64 = 1e-4;
 /// Largest number of Gauss-Newton steps.
 const POLISH_STEPS: usize = 60;
-/// Relative fall of the cost below which polishing stops.
-const POLISH_FALL: f64 = 1e-9;
+/// Relative fall of the cost below which polishing stops, for a law.
+pub const LAW: f64 = 1e-9;
+/// The same for one resample of many, whose spread is what counts.
+pub const RESAMPLE: f64 = 1e-6;
 /// Step of the difference quotients in free numbers.
 const DIFFERENCE: f64 = 1e-6;
 
@@ -61,7 +63,7 @@ pub fn solve<F: Form>(objective: &Objective<'_, F>) -> Result<Vec<f64>> {
     let split = free.len() - UNLOADING;
     free = simplex(objective, Part::Loading, &free, 0..split)?;
     free = simplex(objective, Part::Unloading, &free, split..free.len())?;
-    polish(objective, &free)
+    polish(objective, &free, LAW)
 }
 
 /// `start` if it is admissible, else the best point of the nearest shell around it that holds one: one number moved, or two.
@@ -150,11 +152,11 @@ fn slice_range(some: &[f64], whole: &[f64], part: Part) -> std::ops::Range<usize
 }
 
 /// Levenberg-Marquardt from `free` until the cost no longer falls, or where the edge of what is admissible leaves no
-/// derivatives.
+/// derivatives; "no longer" is a relative fall below `least`.
 ///
 /// # Errors
 /// [`Error::Fit`] when `free` is not admissible.
-pub fn polish<F: Form>(objective: &Objective<'_, F>, free: &[f64]) -> Result<Vec<f64>> {
+pub fn polish<F: Form>(objective: &Objective<'_, F>, free: &[f64], least: f64) -> Result<Vec<f64>> {
     let mut free = free.to_vec();
     let mut damping = 1e-3;
     let mut cost = objective.cost(&free, Part::All);
@@ -189,7 +191,7 @@ pub fn polish<F: Form>(objective: &Objective<'_, F>, free: &[f64]) -> Result<Vec
                 damping *= 10.0;
             }
         }
-        if fall < POLISH_FALL {
+        if fall < least {
             break;
         }
     }
