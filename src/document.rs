@@ -1,10 +1,10 @@
 //! Document: a TOML input file with its text, and errors that point into it.
 
-pub mod keys;
-pub mod misfit;
-pub mod range;
+pub(crate) mod keys;
+pub(crate) mod misfit;
+pub(crate) mod range;
 pub mod reference;
-pub mod schema;
+pub(crate) mod schema;
 mod words;
 
 use self::words::in_plain_words;

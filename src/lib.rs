@@ -31,7 +31,7 @@ pub mod files;
 pub mod fit;
 pub mod guide;
 pub mod impact;
-pub mod lanes;
+pub(crate) mod lanes;
 pub mod law;
 pub mod listing;
 pub mod material;

@@ -8,7 +8,7 @@
 //! an export take it as they take any.
 
 mod fit;
-pub mod place;
+pub(crate) mod place;
 
 pub use fit::{Reference, Score, error_of_restitution};
 pub use place::{Place, Range};

@@ -2,7 +2,7 @@
 
 pub mod adapter;
 pub mod bodies;
-pub mod contacts;
+pub(crate) mod contacts;
 pub mod dynamics;
 pub mod force;
 pub mod grains;

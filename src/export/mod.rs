@@ -1,7 +1,7 @@
 //! Export: a fitted law in the languages of other discrete-element codes, and the proof that it is the same law there.
 //!
 //! A law file becomes a [`source::portable::Portable`]; [`c::kernel`] writes it once in C, and each dialect, one file a target, wraps
-//! that text in what its code asks for. A new target is a new file with its [`source::dialect::Dialect`], its `mod` line and one line
+//! that text in what its code asks for. A new target is a new file with its `source::dialect::Dialect`, its `mod` line and one line
 //! of the list of [`Target`]. What could be executed is executed by [`check`].
 
 pub mod source;

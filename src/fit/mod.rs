@@ -1,13 +1,13 @@
 //! Fit of the elastic-plastic law to simulated impacts: all speeds of a material at once, in both forms.
 
 pub mod confidence;
-pub mod form;
-pub mod marquardt;
+pub(crate) mod form;
+pub(crate) mod marquardt;
 pub mod pulse;
 pub mod quality;
-pub mod residual;
+pub(crate) mod residual;
 pub mod run;
-pub mod solve;
+pub(crate) mod solve;
 
 use crate::case::Case;
 use crate::contact::elastoplastic::Elastoplastic;
@@ -102,7 +102,7 @@ pub struct Fit {
 ///
 /// A material without yield strength, or impacts that all stay below its yield speed, give Hertz's law.
 /// Otherwise both forms are fitted to F*, delta*, e, delta_res, contact time and the force curves of all
-/// impacts together ([`residual`]), with bootstrap intervals and errors at left-out speeds ([`confidence`]). Each form is
+/// impacts together (`residual`), with bootstrap intervals and errors at left-out speeds ([`confidence`]). Each form is
 /// fitted without and with an inertia term ([`crate::contact::inertia`]); the term is kept where it lowers the largest
 /// error by [`INERTIA_GAIN`]. A single speed cannot tell inertia from hardness and gets none; nor how residual and exponent of the
 /// unloading grow, which stay where they start. Impacts that stick are data; those that did not end or make no sense are left

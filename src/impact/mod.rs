@@ -3,15 +3,15 @@
 //! Runs in units R = 1, rho = 1, E = 1. Displacements and velocities live on the nodes of a grid that never moves, so
 //! there is no velocity transfer and no transfer loss; points carry only their plastic state.
 
-pub mod grid;
+pub(crate) mod grid;
 pub mod model;
-pub mod points;
-pub mod stepping;
+pub(crate) mod points;
+pub(crate) mod stepping;
 
 mod choice;
 pub mod kernel;
 mod run;
-pub mod updated;
+pub(crate) mod updated;
 pub mod wall;
 
 use self::choice::{Job, Plastic};

@@ -1,6 +1,6 @@
 //! Listing: grains as this and other programs list them in files: tables, dumps, data files, VTP, restarts.
 
-pub mod columns;
+pub(crate) mod columns;
 mod data;
 mod dump;
 mod format;

@@ -15,7 +15,7 @@ use std::f64::consts::PI;
 mod grid;
 mod predict;
 mod similar;
-pub mod viscosity;
+pub(crate) mod viscosity;
 
 pub use grid::{Grid, Remedies, graded};
 pub use predict::{with_cells, with_prediction};

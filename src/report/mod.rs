@@ -2,15 +2,15 @@
 //!
 //! Nothing here knows a solver: every figure and table is handed over as numbers and text.
 
-pub mod chart;
-pub mod field_map;
-pub mod figure;
+pub(crate) mod chart;
+pub(crate) mod field_map;
+pub(crate) mod figure;
 mod markup;
-pub mod page;
-pub mod palette;
-pub mod raster;
+pub(crate) mod page;
+pub(crate) mod palette;
+pub(crate) mod raster;
 pub mod run_page;
-pub mod scale;
-pub mod table;
+pub(crate) mod scale;
+pub(crate) mod table;
 
 pub use run_page::RunPage;

@@ -1,6 +1,6 @@
 //! Space: what a run's kernel is generic over, from the components of a node to the tensors of a point.
 //!
-//! [`Axisymmetric`] carries (r, z) and the hoop stretch, [`Solid`] all three dimensions. All tensors hold [`Lanes`]: four
+//! [`Axisymmetric`] carries (r, z) and the hoop stretch, [`Solid`] all three dimensions. All tensors hold `Lanes`: four
 //! material points side by side.
 
 mod axisymmetric;

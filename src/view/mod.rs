@@ -1,12 +1,12 @@
 //! View: what a bed looks like: film, portraits, pictures, page.
 
-pub mod canvas;
-pub mod colours;
+pub(crate) mod canvas;
+pub(crate) mod colours;
 pub mod film;
-pub mod kinds;
-pub mod lettering;
-pub mod outline;
-pub mod page;
-pub mod picture;
-pub mod portrait;
-pub mod render;
+pub(crate) mod kinds;
+pub(crate) mod lettering;
+pub(crate) mod outline;
+pub(crate) mod page;
+pub(crate) mod picture;
+pub(crate) mod portrait;
+pub(crate) mod render;

@@ -2,10 +2,10 @@
 //! would not fit.
 
 mod check;
-pub mod drain;
-pub mod falls;
-pub mod feed;
-pub mod lattice;
+pub(crate) mod drain;
+pub(crate) mod falls;
+pub(crate) mod feed;
+pub(crate) mod lattice;
 mod memory;
 mod space;
 

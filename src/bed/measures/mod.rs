@@ -2,7 +2,7 @@
 
 pub mod fabric;
 pub mod flow;
-pub mod gauge;
+pub(crate) mod gauge;
 pub mod oedometer;
 pub mod repose;
 pub mod series;

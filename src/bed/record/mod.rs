@@ -1,12 +1,12 @@
 //! Record: the files of one run that grow as it goes, and those made from them at its end.
 
-pub mod bodies;
+pub(crate) mod bodies;
 mod contacts;
 pub mod dump;
-pub mod oedometer;
-pub mod paraview;
+pub(crate) mod oedometer;
+pub(crate) mod paraview;
 pub mod summary;
-pub mod vtp;
+pub(crate) mod vtp;
 
 use self::bodies::{BodyRow, body_rows};
 use self::contacts::Written;

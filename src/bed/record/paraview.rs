@@ -54,12 +54,6 @@ impl Frames {
     pub fn len(&self) -> usize {
         self.times.len()
     }
-
-    /// Whether there is no frame.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.times.is_empty()
-    }
 }
 
 /// Grains as points with their radius, material and group (which count from 0), motion, forces and plastic dissipation.

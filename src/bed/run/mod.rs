@@ -1,7 +1,7 @@
 //! Run of a scene: one packing, then the same stages under each law, side by side.
 
-pub mod assembly;
-pub mod packing;
+pub(crate) mod assembly;
+pub(crate) mod packing;
 mod warnings;
 mod watch;
 

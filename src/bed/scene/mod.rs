@@ -1,8 +1,8 @@
 //! Scene: what a bed file says, checked and in SI units.
 
-pub mod region;
+pub(crate) mod region;
 pub mod sizes;
-pub mod stage_tables;
+pub(crate) mod stage_tables;
 
 mod at;
 mod body;

@@ -1,7 +1,7 @@
 //! Protocol: the stages of a scene, run one after the other on one bed, step by step.
 
-pub mod acts;
-pub mod tally;
+pub(crate) mod acts;
+pub(crate) mod tally;
 pub mod time_step;
 
 use self::tally::Tally;

@@ -1,11 +1,11 @@
 //! Show: the results of a run turned into the plain data that the report takes.
 
 mod bed;
-pub mod discover;
-pub mod equations;
+pub(crate) mod discover;
+pub(crate) mod equations;
 mod impacts;
 mod law;
-pub mod study;
+pub(crate) mod study;
 
 pub use bed::bed;
 pub use impacts::{choices, curves, maps};

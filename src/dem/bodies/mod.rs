@@ -5,7 +5,7 @@ pub mod enclosure;
 pub mod machine;
 pub mod mesh;
 pub mod motion;
-pub mod touching;
+pub(crate) mod touching;
 
 use self::belt::Belt;
 use self::motion::Motion;

@@ -4,6 +4,6 @@ mod crowd;
 mod departure;
 pub(crate) mod family;
 mod member;
-pub mod pairs;
+pub(crate) mod pairs;
 pub(crate) mod patch;
-pub mod surfaces;
+pub(crate) mod surfaces;

@@ -1,8 +1,8 @@
 //! Surfaces: contacts of grains with bodies, each keyed by grain and surface so that its history stays its own.
 
 use super::crowd::Crowd;
+pub use super::family::Held;
 use super::family::{Family, Situation};
-pub use super::family::{Held, Patch};
 use crate::dem::bodies::machine::{Load, Machine};
 use crate::dem::bodies::touching::MAX_TOUCHES;
 use crate::dem::force::effects::ContactLaw;

@@ -1,11 +1,11 @@
 //! Step of a bed: forces at the time of the positions, then a kick and a drift, of grains and bodies on one clock.
 
-pub mod any;
-pub mod compose;
+pub(crate) mod any;
+pub(crate) mod compose;
 pub mod contact;
 mod removal;
 mod restart;
-pub mod state;
+pub(crate) mod state;
 
 use crate::dem::bodies::belt::Belt;
 use crate::dem::bodies::machine::{Load, Machine};

@@ -1,12 +1,12 @@
 //! Contact law of the bed: a list of effects around a normal law, composed at compile time.
 //!
 //! The normal law itself is pressed before, for many contacts at once, in [`super::normal`]. What an effect is: [`Effect`];
-//! which there are: [`super::list`].
+//! which there are: `super::list`.
 //!
 //! Signs: the normal points from the second body to the first, the force acts on the first.
 //!
 //! **One time.** Velocities live half a step before the positions. Slip, rolling and approach are therefore measured along the
-//! normal of that time, [`Meeting::middle`]: seen along the present normal, a grain that rolls slips by part of its spin about
+//! normal of that time, `Meeting::middle`: seen along the present normal, a grain that rolls slips by part of its spin about
 //! the line of centres, always to the same side, and never rolls off. What springs hold turns with the normal.
 //!
 //! **Energy ledger.** The work a force does between two evaluations is the mean of the forces of both times the slip of the
@@ -296,7 +296,7 @@ impl<L> Law<L> {
         }
     }
 
-    /// The same with one effect more, which acts after the others; order: [`super::list`].
+    /// The same with one effect more, which acts after the others; order: `super::list`.
     #[must_use]
     pub fn with<E>(self, effect: E) -> Law<(L, E)> {
         Law {

@@ -1,7 +1,7 @@
 //! Grains: spheres as columns, packed so that one contact reads one cache line of each.
 
 pub mod neighbours;
-pub mod newcomer;
+pub(crate) mod newcomer;
 pub mod periodic;
 
 use self::periodic::Periodic;

@@ -2,7 +2,7 @@
 
 pub mod contact;
 pub mod kernel;
-pub mod series;
+pub(crate) mod series;
 
 use crate::Result;
 use crate::export::source::artifact::Artifact;
@@ -37,7 +37,7 @@ pub fn export(law: &Portable) -> Vec<Artifact> {
 /// Headers of two laws and of their contact.
 ///
 /// # Errors
-/// As [`series::export`].
+/// As `series::export`.
 pub fn export_with(first: &Portable, second: &Portable) -> Result<Vec<Artifact>> {
     let contact = series::export(first, second)?;
     let mut files = export(first);

@@ -3,8 +3,8 @@
 //! What is written so far is an oedometer: a box of grains of one material under one fitted law, a piston that compresses
 //! and lets go. Everything else is refused by name before anything is run.
 
-pub mod lammps;
-pub mod liggghts;
+pub(crate) mod lammps;
+pub(crate) mod liggghts;
 
 use crate::bed::run::packing::Packed;
 use crate::bed::scene::{Container, FITTED, LawChoice, OutputTable, Scene, Stage, TimeStep};

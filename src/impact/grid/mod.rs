@@ -1,6 +1,6 @@
 //! Grid that carries displacement and velocity: splines, cells, and where points have their homes.
 
-pub mod basis;
-pub mod homes;
-pub mod section;
-pub mod volume;
+pub(crate) mod basis;
+pub(crate) mod homes;
+pub(crate) mod section;
+pub(crate) mod volume;

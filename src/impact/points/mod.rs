@@ -1,5 +1,5 @@
 //! Material points: where they are in the body and what volume each stands for.
 
-pub mod ball;
-pub mod lattice;
-pub mod section;
+pub(crate) mod ball;
+pub(crate) mod lattice;
+pub(crate) mod section;

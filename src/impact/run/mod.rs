@@ -1,7 +1,7 @@
 //! Run: one impact in progress, step by step.
 
-pub mod record;
-pub mod transfer;
+pub(crate) mod record;
+pub(crate) mod transfer;
 
 mod advance;
 #[cfg(test)]

@@ -2,4 +2,4 @@
 
 pub(crate) mod erosion;
 pub(crate) mod levels;
-pub mod stability;
+pub(crate) mod stability;

@@ -4,7 +4,7 @@
 //! The step is that of the thesis with gradients taken in the present configuration. Each point keeps its deformation
 //! gradient; with weights $F^T \nabla N$ the kernel's reference form of forces and gradients holds as it stands.
 
-pub mod deformation;
+pub(crate) mod deformation;
 
 use self::deformation::{Deformation, gradient, pulled_back};
 use crate::curve::Status;

@@ -1,10 +1,10 @@
 //! Wall: what a run asks of its contact, and what one step of contact answers.
 
-pub mod banded;
-pub mod complementarity;
-pub mod contact_point;
-pub mod interior;
-pub mod meridian;
+pub(crate) mod banded;
+pub(crate) mod complementarity;
+pub(crate) mod contact_point;
+pub(crate) mod interior;
+pub(crate) mod meridian;
 pub mod surface;
 
 use crate::space::Space;

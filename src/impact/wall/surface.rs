@@ -1,6 +1,6 @@
 //! Patch: contact of a three-dimensional body with the wall, without or with Coulomb friction.
 //!
-//! Normal impulses solve the same complementarity as in [`super::meridian`]. Masses are lumped, so W couples equal
+//! Normal impulses solve the same complementarity as in `super::meridian`. Masses are lumped, so W couples equal
 //! components only, and the problem splits exactly: normal impulses first, then the tangential ones, which minimise
 //!
 //! $$ \tfrac12 \sum_{cd} \lambda_c \cdot W_{cd} \lambda_d + \sum_c b_c \cdot \lambda_c, \qquad |\lambda_c| \le \mu \lambda^n_c $$
