@@ -44,12 +44,12 @@ fn the_oedometer_closes() {
 }
 
 #[test]
+#[ignore = "two minutes of one core"]
 fn the_peening_closes() {
     closes("bed-peen");
 }
 
 #[test]
-#[ignore = "25 s of one core"]
 fn the_impact_closes() {
     closes("bed-impact");
 }
