@@ -2,6 +2,7 @@
 
 use crate::material::Material;
 use crate::material::flow::YIELD_STRENGTH;
+use crate::unit::significant;
 use crate::{Error, Result};
 use serde::{Deserialize, Serialize};
 
@@ -118,9 +119,11 @@ impl Range {
             if !(low * (1.0 - ROOM) <= x && x <= high * (1.0 + ROOM)) {
                 return Err(Error::Refused {
                     what: what.to_owned(),
-                    found: format!("{x}"),
+                    found: significant(x, 6),
                     allowed: format!(
-                        "must lie in [{low}, {high}], the range of the atlas; `impactlaw run` makes the law of any material from impacts of its own"
+                        "must lie in [{}, {}], the range of the atlas; `impactlaw run` makes the law of any material from impacts of its own",
+                        significant(low, 5),
+                        significant(high, 5)
                     ),
                 });
             }

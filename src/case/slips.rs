@@ -36,6 +36,8 @@ const HEAVY: (f64, f64) = (3500.0, 0.5e9);
 const LEAST_STRESS: f64 = 1e-3;
 /// Smallest speed over $\sqrt{E/\rho}$: a flattening of 1e-8 R, some digits above the rounding of positions.
 const LEAST_MACH: f64 = 1e-10;
+/// Largest acceleration of gravity, m/s2.
+const LARGEST_GRAVITY: f64 = 5e3;
 /// Largest $\rho V^2/Y$: a tenth of it flattens the body to a fiftieth of its height.
 const LARGEST_SEVERITY: f64 = 150.0;
 
@@ -96,7 +98,7 @@ fn key_of(constant: &Constant) -> String {
 }
 
 /// What is wrong with a value, when it is.
-type Slip = Option<String>;
+pub(crate) type Slip = Option<String>;
 
 /// That `unusual` names keys that it can.
 ///
@@ -119,6 +121,49 @@ pub(crate) fn of(
     velocities: &[f64],
     unusual: &[String],
 ) -> Vec<(String, Option<usize>, String)> {
+    let told = |(key, index, why): (String, Option<usize>, String)| {
+        let allowed = meant(&key, &why);
+        (!unusual.contains(&key)).then_some((key, index, allowed))
+    };
+    reasons(case, velocities)
+        .into_iter()
+        .filter_map(told)
+        .collect()
+}
+
+/// What to do about a value that looks like a slip.
+pub(crate) fn meant(key: &str, why: &str) -> String {
+    format!(
+        "check the unit of {key}: {why}; if it is meant, begin the file with `unusual = [\"{key}\"]`"
+    )
+}
+
+/// Radius, density and modulus of grains, under the names of their keys. Softer ones than true are usual in beds, and are no slip.
+pub(crate) fn of_grains(radii: [f64; 2], material: &Material) -> [(&'static str, Slip); 3] {
+    let radius = |radius: f64| outside(radius, &RADII, "m");
+    [
+        ("radius", radius(radii[0]).or_else(|| radius(radii[1]))),
+        ("density", outside(material.density, &DENSITIES, "kg/m³")),
+        (
+            "young_modulus",
+            outside(material.young_modulus, &MODULI, "Pa"),
+        ),
+    ]
+}
+
+/// Acceleration of gravity: a centrifuge has some hundreds of the earth's.
+pub(crate) fn of_gravity(gravity: f64) -> Slip {
+    (gravity > LARGEST_GRAVITY).then(|| {
+        format!(
+            "{} is above {}, more than centrifuges have",
+            engineering(gravity, "m/s²", 4),
+            engineering(LARGEST_GRAVITY, "m/s²", 4)
+        )
+    })
+}
+
+/// Values of a case that look like a slip: key, index of the speed, why.
+pub(crate) fn reasons(case: &Case, velocities: &[f64]) -> Vec<(String, Option<usize>, String)> {
     let Material {
         density,
         young_modulus,
@@ -148,14 +193,10 @@ pub(crate) fn of(
         let slip = velocity_slip(&case.material, *velocity);
         found.push((VELOCITIES.to_owned(), Some(i), slip));
     }
-    let told = |(key, index, slip): (String, Option<usize>, Slip)| {
-        let why = slip.filter(|_| !unusual.contains(&key))?;
-        let allowed = format!(
-            "check the unit of {key}: {why}; if it is meant, begin the file with `unusual = [\"{key}\"]`"
-        );
-        Some((key, index, allowed))
-    };
-    found.into_iter().filter_map(told).collect()
+    let slips = found.into_iter();
+    slips
+        .filter_map(|(key, index, slip)| Some((key, index, slip?)))
+        .collect()
 }
 
 /// That no value of the case file is a slip, but for those named in `unusual`.

@@ -5,11 +5,15 @@ use super::schema::{FILES, FileKind};
 use crate::document::keys::Kind;
 use crate::document::misfit::misfits;
 use crate::{Error, Place};
+use std::io::ErrorKind;
 use toml::de::{DeTable, DeValue};
 
 /// `error`, or, where its file fits another kind of input file better than the one it was read as, what the file is.
 #[must_use]
 pub fn named(error: Error) -> Error {
+    if let Some(refused) = no_toml(&error) {
+        return refused;
+    }
     let (Error::Value { path, place, .. } | Error::Syntax { path, place, .. }) = &error else {
         return error;
     };
@@ -26,6 +30,24 @@ pub fn named(error: Error) -> Error {
             found.next.replace("FILE", &file)
         ),
     }
+}
+
+/// What a file is that is no TOML file by its name and cannot be read as one.
+fn no_toml(error: &Error) -> Option<Error> {
+    let path = match error {
+        Error::Syntax { path, .. } => path,
+        Error::File { path, source, .. } if source.kind() == ErrorKind::InvalidData => path,
+        _ => return None,
+    };
+    let ending = path.extension()?.to_string_lossy();
+    (!ending.eq_ignore_ascii_case("toml")).then(|| Error::Refused {
+        what: path.display().to_string(),
+        found: format!("a file that ends in .{ending} and is no TOML"),
+        allowed: format!(
+            "must be a TOML file, of {}",
+            FILES.map(|kind| kind.name).join(", ")
+        ),
+    })
 }
 
 /// `a case file`, `an equations file`.
@@ -54,6 +76,7 @@ fn other(place: &Place) -> Option<(FileKind, FileKind)> {
     let value = DeValue::Table(table.clone());
     let wrong = |kind: &FileKind| misfits(&Kind::Table(kind.table()), &value);
     let found = FILES.into_iter().min_by_key(wrong)?;
-    let better = wrong(&found) < wrong(&wanted) && own(&found) >= half.max(1);
+    // a single slip is one in a file of the kind that was wanted
+    let better = wrong(&found) + 1 < wrong(&wanted) && own(&found) >= half.max(1);
     better.then_some((wanted, found))
 }

@@ -210,6 +210,7 @@ fn summary(report: &BedReport, compressed: bool) -> String {
 /// Value of a finding with its unit, four digits.
 fn value(finding: &Finding) -> String {
     match finding.unit {
+        _ if finding.value.is_nan() => "none".to_owned(),
         "m" | "kg" | "kg/s" => in_mm_or_g(finding),
         "Pa" => engineering(finding.value, "Pa", 3),
         "" => significant(finding.value, 4),

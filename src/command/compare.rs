@@ -22,7 +22,7 @@ pub struct CompareArgs {
     /// Folder that holds the `impact_V*` folders (default: `out/<case name>`).
     #[arg(short, long)]
     pub impacts: Option<PathBuf>,
-    /// Output folder (default: the impacts' folder).
+    /// Output folder (default: the impacts' folder; `compare-NAME` in it for a law that is not the one there).
     #[arg(short, long)]
     pub out: Option<PathBuf>,
     /// Compare the theories too whose constants are unverified.
@@ -61,12 +61,21 @@ impl Command for CompareArgs {
                 ),
             });
         }
-        let file = match law == Path::new(ATLAS) {
+        let from_atlas = law == Path::new(ATLAS);
+        let file = match from_atlas {
             true => LawFile::of_atlas(&case.name, &case.material, case.radius)?,
             false => LawFile::read(&law)?,
         };
         let impacts = read_impacts(&folder, &case)?;
-        let out = self.out.clone().unwrap_or(folder);
+        let out = match &self.out {
+            Some(out) => out.clone(),
+            // what was written of the case's own law, and what the report says of it, stays
+            None if is_another(&law, &folder.join("law.toml")) => {
+                let name = law.file_stem().unwrap_or_default().to_string_lossy();
+                folder.join(format!("compare-{name}"))
+            }
+            None => folder,
+        };
         check_writable(&out)?;
         // a law serves bodies of every radius, but of its own material only
         let of_law = Particle::of(&file.material(), case.radius);
@@ -80,7 +89,10 @@ impl Command for CompareArgs {
         }
         context.open_log(&out, "compare", &case.hash);
         let mut comparison = Comparison::new(&case.material, case.radius, &impacts);
-        add_fitted(&mut comparison, &file)?;
+        match from_atlas {
+            true => file.law()?.visit(Added(&mut comparison, ATLAS)),
+            false => add_fitted(&mut comparison, &file)?,
+        }
         comparison.add_theories(self.unverified);
         write(&comparison, &out, &context.provenance(&case.hash))?;
         match self.json {
@@ -88,6 +100,15 @@ impl Command for CompareArgs {
             false => context.say(&comparison.summary_markdown())?,
         }
         Ok(Verdict::Met)
+    }
+}
+
+/// Whether a law file is another than the one that is there.
+fn is_another(law: &Path, own: &Path) -> bool {
+    match (law.canonicalize(), own.canonicalize()) {
+        (Ok(law), Ok(own)) => law != own,
+        (_, Err(_)) => false,
+        (Err(_), Ok(_)) => true,
     }
 }
 

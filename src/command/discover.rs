@@ -35,8 +35,8 @@ const FIGURES: [&str; 5] = [
 pub struct DiscoverArgs {
     /// Results of a study: `results.csv`, or the folder it is in.
     pub results: PathBuf,
-    /// Figures to find equations of (default: plastic strain, compression ratio, restitution, largest force and
-    /// displacement).
+    /// Figures to find equations of, as the columns are called (default: equivalent_plastic_strain, compression_ratio,
+    /// restitution, max_force_N, max_displacement_m).
     #[arg(long, num_args = 1..)]
     pub target: Vec<String>,
     /// Rows to use, e.g. `--where "rho V^2/Y <= 3.2"`; may be given more than once.

@@ -114,8 +114,8 @@ fn of_file(file: &FileKind, wanted: &str) -> Result<String> {
 fn files() -> String {
     let mut text = "Input files (keys: `impactlaw help FILE`):\n".to_owned();
     for file in FILES {
-        let about = reference::wrapped(&file.about.replace('`', ""), 80, "           ");
-        let _ = write!(text, "  {:<9}{}", file.name, about.trim_start());
+        let about = reference::wrapped(&file.about.replace('`', ""), 80, "            ");
+        let _ = write!(text, "  {:<10}{}", file.name, about.trim_start());
     }
     text
 }

@@ -98,6 +98,25 @@ fn eval(args: &LawEvalArgs) -> Result<Verdict> {
         .iter()
         .map(|text| argument::<Length>("--displacements", text))
         .collect::<Result<Vec<f64>>>()?;
+    for (text, displacement) in args.displacements.iter().zip(&displacements) {
+        let beyond = |allowed: String| Error::Argument {
+            argument: "--displacements".to_owned(),
+            found: format!("\"{text}\""),
+            allowed,
+        };
+        if *displacement >= radius {
+            return Err(beyond(format!(
+                "must be less than the radius, {}: a law describes a body that is flattened, not gone",
+                crate::unit::engineering(radius, "m", 4)
+            )));
+        }
+        if args.max_displacement.is_some() && *displacement > most {
+            return Err(beyond(format!(
+                "must be at most --max-displacement, {}: on the way back no displacement is larger",
+                crate::unit::engineering(most, "m", 4)
+            )));
+        }
+    }
     let limit = law.visit(ValidTo) * radius;
     let outside = displacements.iter().filter(|d| d.max(most) > limit).count();
     if outside > 0 {

@@ -1,7 +1,7 @@
 //! `law --young ...`: the law of a material from the atlas, in milliseconds.
 
 use super::{Context, Verdict, check_writable};
-use crate::case::Case;
+use crate::case::{Case, slips};
 use crate::law::LawFile;
 use crate::material::flow::LinearHardening;
 use crate::material::{Flow, Material};
@@ -121,7 +121,27 @@ impl LawAtlasArgs {
         let radius = argument::<Length>("--radius", &text(&self.radius))?;
         let stem = out.file_stem().unwrap_or_default().to_string_lossy();
         let name = self.name.clone().unwrap_or_else(|| stem.into_owned());
-        Case::of(&name, radius, material, &[1.0], 0.02)
+        let case = Case::of(&name, radius, material, &[1.0], 0.02)?;
+        match slips::reasons(&case, &[]).into_iter().next() {
+            None => Ok(case),
+            Some((key, _, why)) => {
+                let argument = match key.rsplit('.').next().unwrap_or_default() {
+                    "density" => ("--density", &self.density),
+                    "young_modulus" => ("--young", &self.young),
+                    "poisson_ratio" => ("--poisson", &self.poisson),
+                    "radius" => ("--radius", &self.radius),
+                    "hardening_modulus" => ("--hardening", &self.hardening),
+                    _ => ("--yield", &self.strength),
+                };
+                Err(Error::Argument {
+                    argument: argument.0.to_owned(),
+                    found: format!("\"{}\"", text(argument.1)),
+                    allowed: format!(
+                        "check the unit: {why}; if it is meant, write a case and run it"
+                    ),
+                })
+            }
+        }
     }
 }
 

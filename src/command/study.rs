@@ -3,7 +3,7 @@
 use super::impact::interval;
 use super::study_merge::StudyMergeArgs;
 use super::study_runs::{Queued, SHARD, planned, queue, simulated, study_folder, whole};
-use super::study_table::report;
+use super::study_table::{check_owner, report};
 use super::{Command, Context, Verdict, output_folder};
 use crate::curve::Status;
 use crate::{Error, Result};
@@ -92,6 +92,7 @@ impl StudyRunArgs {
             }
             None => whole(&folder, &study)?,
         };
+        check_owner(&out, &study)?;
         context.open_log(&out, "study", &study.hash);
         let Some(shard) = shard else {
             let runs = simulated(&study, queue(&study), &[&out], interval, context)?;

@@ -1,7 +1,7 @@
 //! `study merge`: puts the parts of a study, run apart, together.
 
 use super::study_runs::{Queued, Runs, planned, queue, run_folder, shards, study_folder, whole};
-use super::study_table::report;
+use super::study_table::{check_owner, report};
 use super::{Command, Context, Verdict};
 use crate::files::write_atomic;
 use crate::study::{Groups, KeptRun, Study};
@@ -39,6 +39,7 @@ impl Command for StudyMergeArgs {
             false => self.folders.clone(),
         };
         let (out, _shards) = whole(&folder, &study)?;
+        check_owner(&out, &study)?;
         context.open_log(&out, "study-merge", &study.hash);
         let mut runs = Runs::new();
         let mut missing: Option<(usize, Queued)> = None;

@@ -63,13 +63,37 @@ pub fn report(
     })
 }
 
+/// That a folder does not hold the results of another study, which would be lost.
+///
+/// # Errors
+/// [`Error::Refused`] with the name of that study.
+pub fn check_owner(out: &Path, study: &Study) -> Result<()> {
+    let path = out.join("results.csv");
+    let Ok(text) = std::fs::read_to_string(&path) else {
+        return Ok(());
+    };
+    let owner = |line: &str| line.rsplit_once(STUDY).map(|(_, name)| name.to_owned());
+    let first = text.lines().next().unwrap_or_default();
+    match (owner(first), owner(&provenance(study))) {
+        (Some(there), Some(own)) if there != own => Err(Error::Refused {
+            what: path.display().to_string(),
+            found: format!("the results of {there}"),
+            allowed: format!("must be of {own}: name another folder with --out"),
+        }),
+        _ => Ok(()),
+    }
+}
+
+/// What stands before the name of the study in the provenance of its results.
+const STUDY: &str = "; impactlaw study ";
+
 /// Line on top of `results.csv`: the same however the runs were made, so that the parts of a study make the bytes of the whole.
 fn provenance(study: &Study) -> String {
     let file = study.cases.first().and_then(|case| case.path.file_name());
     let file = file.unwrap_or_default().to_string_lossy();
     let hash = &study.hash;
     format!(
-        "{PROGRAM}; case sha256 {hash}; impactlaw study {}",
+        "{PROGRAM}; case sha256 {hash}{STUDY}{}",
         file.escape_default()
     )
 }

@@ -117,8 +117,10 @@ fn entry(found: &Found, length: f64, setting: &Setting<'_>, target: &Target) -> 
     }
 }
 
-/// The one of least bits, misfit of left-out levels included.
+/// The one of least bits, misfit of left-out levels included, of those that say more than the mean does.
 #[must_use]
 pub fn chosen(front: &[Entry]) -> Option<usize> {
-    (0..front.len()).min_by(|&a, &b| front[a].length.total_cmp(&front[b].length))
+    let length = |i: usize| front[i].length;
+    let told = (0..front.len()).filter(|&i| front[i].seen.r2 > 0.0);
+    told.min_by(|&a, &b| length(a).total_cmp(&length(b)))
 }

@@ -241,11 +241,7 @@ impl Inputs {
                 return Err(Error::Value {
                     path: table.path.clone(),
                     key: column.name.clone(),
-                    found: format!(
-                        "{} in row {} of those with status ok",
-                        column.values[row],
-                        row + 1
-                    ),
+                    found: format!("{} in line {}", column.values[row], table.lines[row]),
                     allowed: "must be positive where it varies: products of powers are looked for"
                         .to_owned(),
                     place: None,
@@ -258,30 +254,54 @@ impl Inputs {
                 None => free.push(column),
             }
         }
-        let dimensions: Vec<Dimension> = free.iter().map(|column| column.dimension).collect();
+        // what never changes takes part by its unit: at one density an impact still depends on rho V^2/Y
+        let fixed = undetermined.iter().copied().filter(|column| {
+            !column.dimension.is_none() && column.values.iter().all(|value| *value > 0.0)
+        });
+        let columns: Vec<&Column> = free.iter().copied().chain(fixed).collect();
+        let dimensions: Vec<Dimension> = columns.iter().map(|column| column.dimension).collect();
         let merit = |exponents: &[i32]| {
-            let logs = Product::new(&free, exponents).logs(table);
+            let logs = Product::new(&columns, exponents).logs(table);
             let of = figures
                 .iter()
                 .map(|figure| spearman(&logs, &figure.values).abs());
             of.sum::<f64>()
         };
-        let found = groups(&dimensions, merit);
-        if found.is_empty() {
-            return Err(Error::Refused {
-                what: format!("{}: columns that vary", table.path.display()),
-                found: free
-                    .iter()
-                    .map(|c| c.name.clone())
-                    .collect::<Vec<_>>()
-                    .join(", "),
-                allowed: format!(
-                    "must make 1 to {MOST} products of powers without unit: vary what else has a unit too, as density or modulus"
-                ),
-            });
+        let mut made: Vec<(Product, Column)> = Vec::new();
+        for exponents in groups(&dimensions, merit) {
+            let group = Product::new(&columns, &exponents);
+            let column = Column {
+                name: group.name(),
+                dimension: Dimension::default(),
+                values: group.logs(table).iter().map(|log| log.exp()).collect(),
+            };
+            // one that the others determine in this table can say nothing of its own
+            let others: Vec<&Column> = made.iter().map(|(_, column)| column).collect();
+            if !column.constant() && dependence(&column, &others).is_none() {
+                made.push((group, column));
+            }
+        }
+        let list = |columns: &[&Column]| {
+            let names: Vec<&str> = columns.iter().map(|c| &c.name[..]).collect();
+            names.join(", ")
+        };
+        let refuse = |found: String| Error::Refused {
+            what: format!("{}: columns that vary", table.path.display()),
+            found,
+            allowed: format!(
+                "must make 1 to {MOST} products of powers without unit, each column in one at least: add the columns of what else has a unit, as density or modulus"
+            ),
+        };
+        if made.is_empty() {
+            return Err(refuse(list(&free)));
+        }
+        let alone = |column: &&Column| made.iter().all(|(group, _)| group.of(&column.name) == 0);
+        let alone: Vec<&Column> = free.iter().copied().filter(alone).collect();
+        if !alone.is_empty() {
+            return Err(refuse(format!("{} in none", list(&alone))));
         }
         Ok(Inputs {
-            groups: found.iter().map(|x| Product::new(&free, x)).collect(),
+            groups: made.into_iter().map(|(group, _)| group).collect(),
             free: free.iter().map(|c| c.name.clone()).collect(),
             undetermined: undetermined.iter().map(|c| c.name.clone()).collect(),
             dependent,
@@ -447,5 +467,80 @@ impl Runs {
             values,
             errors,
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::path::Path;
+
+    const HEAD: &str = "density_kg_m3,young_modulus_Pa,yield_strength_Pa,poisson_ratio,radius_m,velocity_m_s,restitution,max_force_N,status";
+
+    /// Impacts with made up figures: each density with each modulus, strength and speed.
+    fn table(head: &str, densities: &[f64], moduli: &[f64]) -> Table {
+        let mut text = format!("{head}\n");
+        for density in densities {
+            for modulus in moduli {
+                for (k, strength) in [50e6, 80e6, 120e6, 200e6].into_iter().enumerate() {
+                    for speed in [1.0, 2.0, 5.0] {
+                        let e = 0.3 + 0.05 * k as f64 / speed;
+                        let row = match head.starts_with("density") {
+                            true => format!(
+                                "{density},{modulus},{strength},0.3,1e-3,{speed},{e},{speed},ok\n"
+                            ),
+                            false => format!("{strength},1e-3,{speed},{e},{speed},ok\n"),
+                        };
+                        text.push_str(&row);
+                    }
+                }
+            }
+        }
+        Table::parse(&text, Path::new("results.csv")).unwrap()
+    }
+
+    fn groups_of(table: &Table) -> Result<Vec<String>> {
+        let figures: Vec<&Column> = table.figures.iter().collect();
+        let inputs = Inputs::of(table, &figures)?;
+        Ok(inputs.groups.iter().map(Product::text).collect())
+    }
+
+    #[test]
+    fn what_never_changes_takes_part_in_groups_by_its_unit() {
+        let wanted = ["E/Y", "rho V^2/Y"];
+        for (densities, moduli) in [
+            (&[8e3][..], &[60e9, 120e9][..]),
+            (&[4e3, 8e3], &[60e9]),
+            (&[8e3], &[60e9]),
+            (&[4e3, 8e3], &[60e9, 120e9]),
+        ] {
+            let mut found = groups_of(&table(HEAD, densities, moduli)).unwrap();
+            found.sort();
+            assert_eq!(found, wanted, "{densities:?} {moduli:?}");
+        }
+    }
+
+    #[test]
+    fn a_column_that_varies_and_stands_in_no_group_is_refused() {
+        let head = "yield_strength_Pa,radius_m,velocity_m_s,restitution,max_force_N,status";
+        let error = groups_of(&table(head, &[8e3], &[60e9]))
+            .unwrap_err()
+            .to_string();
+        assert!(error.contains("velocity_m_s"), "{error}");
+        assert!(error.contains("density"), "{error}");
+    }
+
+    #[test]
+    fn figures_that_no_impact_has_are_refused_by_line() {
+        for (row, place) in [
+            ("8e3,60e9,50e6,0.3,1e-3,1,1.21,5,ok", "restitution"),
+            ("8e3,60e9,50e6,0.3,1e-3,1,0.5,-5,ok", "max_force_N"),
+        ] {
+            let good = "8e3,60e9,50e6,0.3,1e-3,2,0.5,5,ok";
+            let text = format!("{HEAD}\n{good}\n{row}\n");
+            let error = Table::parse(&text, Path::new("results.csv")).unwrap_err();
+            let error = error.to_string();
+            assert!(error.contains(place) && error.contains("line 3"), "{error}");
+        }
     }
 }

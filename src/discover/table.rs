@@ -28,6 +28,47 @@ pub const FIGURES: [&str; 19] = [
     "impulse_ratio",
 ];
 
+/// Figures that no impact has outside these bounds: the smallest and the largest, the smallest itself allowed or not.
+const BOUNDS: [(&str, Bound, f64, &str); 4] = [
+    ("restitution", Bound::From(0.0), 1.01, "must lie in [0, 1]"),
+    (
+        "max_force_N",
+        Bound::Above(0.0),
+        f64::INFINITY,
+        "must be above 0",
+    ),
+    (
+        "max_displacement_m",
+        Bound::Above(0.0),
+        f64::INFINITY,
+        "must be above 0",
+    ),
+    (
+        "contact_time_s",
+        Bound::Above(0.0),
+        f64::INFINITY,
+        "must be above 0",
+    ),
+];
+
+/// A lower bound.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Bound {
+    /// Itself allowed.
+    From(f64),
+    /// Not itself.
+    Above(f64),
+}
+
+impl Bound {
+    fn allows(self, value: f64) -> bool {
+        match self {
+            Bound::From(least) => value >= least,
+            Bound::Above(least) => value > least,
+        }
+    }
+}
+
 /// Column with the status of a row.
 const STATUS: &str = "status";
 /// Column with the name of a case, which may be a number.
@@ -84,6 +125,8 @@ pub struct Table {
     pub tolerance: Option<f64>,
     /// Rows that did not end with status ok, which are not here.
     pub failed: usize,
+    /// Line of the file of each row.
+    pub lines: Vec<u64>,
 }
 
 impl Table {
@@ -166,6 +209,10 @@ impl Table {
             converted: Vec::new(),
             tolerance: None,
             failed: rows.len() - good.len(),
+            lines: good
+                .iter()
+                .map(|row| row.position().map_or(0, csv::Position::line))
+                .collect(),
         };
         for (at, name) in names.iter().enumerate().filter(|(_, name)| *name != STATUS) {
             if name == NAME || derived.contains(name) {
@@ -197,7 +244,7 @@ impl Table {
                     _ => {
                         return Err(refuse(
                             name,
-                            format!("`{cell}` in row {} of those with status ok", row + 1),
+                            format!("`{cell}` in line {}", table.lines[row]),
                             "must be a number in every row",
                         ));
                     }
@@ -243,12 +290,19 @@ impl Table {
                 if let Some(row) = values.iter().position(|value| value.is_infinite()) {
                     return Err(refuse(
                         &heads[at],
-                        format!(
-                            "`{}` in row {} of those with status ok",
-                            cells[row],
-                            row + 1
-                        ),
+                        format!("`{}` in line {}", cells[row], table.lines[row]),
                         "must be a number in SI units too",
+                    ));
+                }
+            }
+            if let Some((_, least, most, allowed)) = BOUNDS.iter().find(|bound| bound.0 == name) {
+                let beyond =
+                    |value: &f64| !value.is_nan() && !(least.allows(*value) && value <= most);
+                if let Some(row) = values.iter().position(beyond) {
+                    return Err(refuse(
+                        &heads[at],
+                        format!("`{}` in line {}", cells[row], table.lines[row]),
+                        allowed,
                     ));
                 }
             }
@@ -307,7 +361,7 @@ impl Table {
         };
         if let Some(row) = column.values.iter().position(|value| !value.is_finite()) {
             return Err(refuse(
-                format!("no number in row {} of those with status ok", row + 1),
+                format!("no number in line {}", self.lines[row]),
                 "an equation needs a value in every row".to_owned(),
             ));
         }
@@ -333,6 +387,7 @@ impl Table {
         Table {
             inputs: pick(&self.inputs),
             figures: pick(&self.figures),
+            lines: rows.iter().map(|&row| self.lines[row]).collect(),
             ..self.clone()
         }
     }

@@ -288,12 +288,13 @@ impl RunPage<'_> {
 
     fn audit(&self) -> Section {
         let of = |get: fn(&Summary) -> f64| Column::new(&self.impacts, get);
-        let vibration = |s: &Summary| 1.0 - s.restitution * s.restitution - s.plastic_work_ratio;
+        // what unloading could not give back, and the vibration after it
+        let left = |s: &Summary| 1.0 - s.restitution * s.restitution - s.plastic_work_ratio;
         let columns = [
             of(|s| s.velocity_m_s).titled("V", "m/s"),
             of(|s| 1.0 - s.restitution * s.restitution).titled("energy lost 1 − e²", ""),
             of(|s| s.plastic_work_ratio).titled("plastic work W_p/W_i", ""),
-            of(vibration).titled("left in vibration", ""),
+            of(left).titled("left in residual stress and vibration", ""),
             of(|s| s.energy_closure).titled("closure error", ""),
             of(|s| s.points as f64).titled("points", ""),
             of(|s| s.steps as f64).titled("steps", ""),

@@ -18,5 +18,6 @@ mod reference;
 mod report_page;
 mod resume;
 mod schema;
+mod slips;
 mod study;
 mod verbs;

@@ -18,11 +18,7 @@ pub fn check(scene: &Scene) -> Result<()> {
     let Some(largest) = scene.groups.iter().max_by(most) else {
         return Ok(());
     };
-    let grains: f64 = scene
-        .groups
-        .iter()
-        .map(|group| grains_of(scene, group))
-        .sum();
+    let grains = grains(scene);
     let needed = grains * BYTES_PER_GRAIN;
     let free = free().filter(|free| needed > *free);
     let why = match (grains > MOST_GRAINS, free) {
@@ -39,6 +35,12 @@ pub fn check(scene: &Scene) -> Result<()> {
         needed * 1e-9
     );
     Err(scene.document.reject(&key, allowed))
+}
+
+/// Grains of a scene, about.
+pub fn grains(scene: &Scene) -> f64 {
+    let groups = scene.groups.iter();
+    groups.map(|group| grains_of(scene, group)).sum()
 }
 
 /// Grains of a group; of a mass, the fewest that have it.

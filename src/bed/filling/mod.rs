@@ -6,7 +6,7 @@ pub(crate) mod drain;
 pub(crate) mod falls;
 pub(crate) mod feed;
 pub(crate) mod lattice;
-mod memory;
+pub(in crate::bed) mod memory;
 mod space;
 
 pub use self::check::check_bodies;

@@ -67,11 +67,11 @@ impl Record {
         }
     }
 
-    /// Takes a row and writes the frames that are due with it.
+    /// Takes a row and writes the frames that are due with it; those of a stage hold its first row and its `last`.
     ///
     /// # Errors
     /// [`Error::File`] when a file cannot be written.
-    pub fn row(&mut self, bed: &dyn AnyBed, row: &Row) -> Result<()> {
+    pub fn row(&mut self, bed: &dyn AnyBed, row: &Row, last: bool) -> Result<()> {
         if self.stage != row.stage {
             (self.stage, self.rows) = (row.stage.clone(), 0);
         }
@@ -84,21 +84,21 @@ impl Record {
         self.stress
             .push(FabricRow::new(&row.stage, row.time_s, volume, &fabric));
         self.bodies.extend(body_rows(bed, &row.stage));
-        if self.is_due(self.settings.frames) {
+        if self.is_due(self.settings.frames, last) {
             self.frame(bed, &contacts)?;
         }
         let sparser = 1 + bed.grains().len() / FILM_GRAINS;
-        if self.is_due(self.settings.film / sparser) {
+        if self.is_due(self.settings.film / sparser, last) {
             self.film.keep(&Frame::of(bed, &row.stage))?;
         }
         self.rows += 1;
         Ok(())
     }
 
-    /// Whether this row is one of `frames` in a stage.
-    fn is_due(&self, frames: usize) -> bool {
+    /// Whether this row is one of `frames` in a stage, or the `last`.
+    fn is_due(&self, frames: usize, last: bool) -> bool {
         match self.settings.rows.checked_div(frames) {
-            Some(every) => self.rows.is_multiple_of(every.max(1)),
+            Some(every) => last || self.rows.is_multiple_of(every.max(1)),
             None => false,
         }
     }

@@ -41,9 +41,9 @@ impl<'a> Watch<'a> {
 }
 
 impl Observer for Watch<'_> {
-    fn row(&mut self, bed: &dyn AnyBed, row: &Row) -> Result<()> {
+    fn row(&mut self, bed: &dyn AnyBed, row: &Row, last: bool) -> Result<()> {
         (self.progress)(&self.name, row);
-        self.record.row(bed, row)
+        self.record.row(bed, row, last)
     }
 
     fn stage_ended(&mut self, bed: &dyn AnyBed, stage: &Stage) {

@@ -16,6 +16,7 @@ mod measure;
 mod outlet;
 mod pair;
 mod settings;
+mod slips;
 mod stage;
 mod written;
 
@@ -101,6 +102,8 @@ pub struct Scene {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct SceneFile {
+    #[serde(default)]
+    unusual: Vec<String>,
     laws: Option<Vec<String>>,
     seed: u64,
     gravity: Gravity,
@@ -132,6 +135,7 @@ struct SceneFile {
 
 keys! {
     SceneFile {
+        unusual: key("values that look like a slip of a unit and are meant all the same", "`gravity`, and numbers of materials and grains as `material.density`, `grains.radius`", "['material.density']").or("none"),
         laws: key("laws the scene is run under, one after the other from one packing", "`\"fitted\"`, `\"atlas\"` or a theory, each once", "['fitted', 'hertz']").or("every material's own `law`"),
         seed: key("of everything random", "≥ 0", "1"),
         gravity: key("along -z, or a vector", "magnitude ≥ 0", "'9.81 m/s2'"),
@@ -232,6 +236,7 @@ impl Scene {
             measures: check_measures(document, file.measure, &cast.bodies)?,
             output: file.output.check(document)?,
         };
+        slips::check(&scene, &file.unusual)?;
         scene.check_room()?;
         scene.check_regions()?;
         scene.check_moves()?;

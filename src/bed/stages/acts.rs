@@ -211,7 +211,7 @@ impl Run<'_> {
             return Ok(());
         }
         self.place.next_row = after(now, self.place.next_row, self.place.interval);
-        self.record()
+        self.record(false)
     }
 
     /// Whether a stage is over; `survey` is there every few steps.

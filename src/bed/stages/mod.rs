@@ -28,18 +28,18 @@ const TOO_DEEP: f64 = 0.25;
 
 /// Receives what a run produces as it goes, and is kept with it.
 pub trait Observer: Keep {
-    /// A new row; the bed is as the row says.
+    /// A new row, the `last` of its stage or not; the bed is as the row says.
     ///
     /// # Errors
     /// Whatever stops the run, e.g. a file that cannot be written.
-    fn row(&mut self, bed: &dyn AnyBed, row: &Row) -> Result<()>;
+    fn row(&mut self, bed: &dyn AnyBed, row: &Row, last: bool) -> Result<()>;
 
     /// A stage has ended; the bed is as it left it.
     fn stage_ended(&mut self, bed: &dyn AnyBed, stage: &Stage);
 }
 
 impl Observer for () {
-    fn row(&mut self, _: &dyn AnyBed, _: &Row) -> Result<()> {
+    fn row(&mut self, _: &dyn AnyBed, _: &Row, _: bool) -> Result<()> {
         Ok(())
     }
 
@@ -266,7 +266,7 @@ impl<'a> Run<'a> {
             if self.ends(stage, survey.as_ref())? {
                 self.place.begun = false;
                 self.end(stage);
-                return self.record();
+                return self.record(true);
             }
             self.change(stage);
             self.tally.particle_steps += self.bed.grains().len() as u64;
@@ -406,7 +406,7 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    pub(in crate::bed) fn record(&mut self) -> Result<()> {
+    pub(in crate::bed) fn record(&mut self, last: bool) -> Result<()> {
         let (packing, energies) = (self.bed.packing(), self.bed.energies());
         let total = self.drain.total();
         let before = self.rows.last().map_or([self.time(), 0.0, 0.0], |row| {
@@ -421,7 +421,7 @@ impl<'a> Run<'a> {
         let bed = self.bed.as_ref();
         let view = self.view();
         let row = view.row(bed, &packing, &energies, &self.progress, &left);
-        self.observer.row(self.bed.as_ref(), &row)?;
+        self.observer.row(self.bed.as_ref(), &row, last)?;
         self.rows.push(row);
         Ok(())
     }

@@ -2,7 +2,8 @@
 //! body.
 
 use crate::Result;
-use crate::bed::scene::{Change, GrainMaterial, Group, Scene, Stage, TimeStep};
+use crate::bed::filling::memory::grains;
+use crate::bed::scene::{Change, Duration, GrainMaterial, Group, Scene, Stage, TimeStep, Until};
 use crate::contact::{LawVisitor, NormalLaw};
 use crate::dem::bodies::belt::Belt;
 use crate::dem::bodies::motion::Motion;
@@ -11,7 +12,7 @@ use crate::dem::dynamics::state::Packing;
 use crate::dem::force::damping::{USUAL_STEPS, steps_for};
 use crate::law::AnyLaw;
 use crate::material::Material;
-use crate::unit::engineering;
+use crate::unit::{engineering, significant};
 use std::f64::consts::PI;
 
 /// Largest way by which a grain and another or a body may close in one step, over the radius.
@@ -212,6 +213,7 @@ impl Limits {
 /// [`crate::Error::Value`] with the largest speed or step allowed.
 pub fn check(scene: &Scene) -> Result<()> {
     check_speeds(scene)?;
+    check_lengths(scene)?;
     let Some(step) = scene.time.step else {
         return Ok(());
     };
@@ -230,6 +232,47 @@ pub fn check(scene: &Scene) -> Result<()> {
         scene.time.rayleigh_fraction
     );
     Err(scene.document.reject("time.step", allowed))
+}
+
+/// Time of a step for one grain on one core, s: 0.3 to 0.5 us are measured (`benches/step`).
+const STEP: f64 = 0.4e-6;
+/// Longest stage that is begun, s of one core: a month.
+const LONGEST: f64 = 2.6e6;
+
+/// That no stage lasts longer than a month on one core, as one of a slip of a unit does; stages that a condition ends are
+/// taken at their word.
+///
+/// # Errors
+/// [`crate::Error::Value`] naming the stage, its steps and how long they take.
+pub fn check_lengths(scene: &Scene) -> Result<()> {
+    let grains = grains(scene);
+    let dt = |softening: f64| {
+        Limits::of(scene.time, &scene.groups, &scene.materials, USUAL_STEPS).rayleigh(softening)
+    };
+    let full = scene.contact.softening();
+    for (index, stage) in scene.stages.iter().enumerate() {
+        let (key, steps) = match stage {
+            Stage::Relax { steps } => ("steps", *steps as f64),
+            Stage::Run(run) if run.until != Until::default() => continue,
+            Stage::Run(run) => match run.longest {
+                Duration::Time(time) => ("duration", time / dt(full)),
+                Duration::Steps(steps) => ("steps", steps as f64),
+            },
+            Stage::Settle { .. } | Stage::Compress { .. } | Stage::Unload { .. } => continue,
+        };
+        if !(steps * grains * STEP <= LONGEST) {
+            let allowed = format!(
+                "must be shorter: {} steps of {} grains take some {} days of one core, and at most 30 are begun; check the units of the stage and the grains",
+                significant(steps, 2),
+                significant(grains, 2),
+                significant(steps * grains * STEP / 86400.0, 2)
+            );
+            return Err(scene
+                .document
+                .reject(&format!("stage[{index}].{key}"), allowed));
+        }
+    }
+    Ok(())
 }
 
 fn check_speeds(scene: &Scene) -> Result<()> {

@@ -1,0 +1,207 @@
+//! Slips of a stranger outside of case files: units in scenes and arguments, folders and laws that belong to something else.
+
+use crate::program::{impactlaw, message};
+use std::path::Path;
+
+const SCENE: &str = r#"
+laws = ["hertz"]
+seed = 7
+gravity = "9.81 m/s2"
+[material]
+density = "2500 kg/m3"
+young_modulus = "50 MPa"
+poisson_ratio = 0.3
+[grains]
+count = 8
+radius = "1 mm"
+[box]
+width = "8 mm"
+depth = "8 mm"
+[[stage]]
+kind = "run"
+name = "fall"
+duration = "4 ms"
+[output]
+rows = 7
+frames = 3
+film = 0
+"#;
+
+/// What a call says on stderr; its exit code is `code`.
+fn said(folder: &Path, arguments: &[&str], code: i32) -> String {
+    let output = impactlaw(folder, arguments);
+    let text = message(&output);
+    assert_eq!(output.status.code(), Some(code), "{arguments:?}: {text}");
+    text
+}
+
+#[test]
+fn slips_of_units_in_a_scene_are_refused_and_what_is_meant_is_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let write = |text: &str| std::fs::write(here.join("scene.toml"), text).unwrap();
+    for (from, to, key) in [
+        ("2500 kg/m3", "2500 g/cm3", "material.density"),
+        ("2500 kg/m3", "2.5 kg/m3", "material.density"),
+        ("50 MPa", "50000 GPa", "material.young_modulus"),
+        ("50 MPa", "50 Pa", "material.young_modulus"),
+        ("9.81 m/s2", "9.81 km/s2", "gravity"),
+        ("\"1 mm\"", "\"1 nm\"", "grains.radius"),
+    ] {
+        write(&SCENE.replace(from, to));
+        let text = said(here, &["bed", "scene.toml"], 2);
+        let unit = format!("check the unit of {key}");
+        assert!(text.contains(&unit), "{to}: {text}");
+        assert!(!here.join("out").exists());
+    }
+    write(&SCENE.replace("4 ms", "4e9 s"));
+    let text = said(here, &["bed", "scene.toml"], 2);
+    assert!(
+        text.contains("stage[0].duration") && text.contains("days"),
+        "{text}"
+    );
+
+    let light = SCENE.replace("2500 kg/m3", "20 kg/m3");
+    write(&format!("unusual = [\"material.density\"]\n{light}"));
+    said(here, &["bed", "scene.toml"], 0);
+    write(&format!("unusual = [\"grains.count\"]\n{SCENE}"));
+    let text = said(here, &["bed", "scene.toml"], 2);
+    assert!(text.contains("must be one of"), "{text}");
+}
+
+#[test]
+fn the_last_frame_of_a_stage_is_its_end() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    std::fs::write(here.join("scene.toml"), SCENE).unwrap();
+    said(here, &["bed", "scene.toml"], 0);
+    let read = |name: &str| std::fs::read_to_string(here.join("out/scene/bed/hertz").join(name));
+    let rows = read("bed.csv").unwrap();
+    let last: Vec<&str> = rows.lines().last().unwrap().split(',').collect();
+    let frames = read("vtp/grains.pvd").unwrap();
+    let times = frames.split("timestep=\"").skip(1);
+    let times: Vec<f64> = times
+        .map(|part| part.split('"').next().unwrap().parse().unwrap())
+        .collect();
+    let end: f64 = last[1].parse().unwrap();
+    assert_eq!(times.last(), Some(&end), "{frames}");
+    assert!(times.windows(2).all(|pair| pair[0] < pair[1]), "{times:?}");
+}
+
+#[test]
+fn slips_of_units_in_arguments_of_a_law_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let law = |density: &str, young: &str| {
+        let arguments = [
+            "law",
+            "--young",
+            young,
+            "--yield",
+            "162MPa",
+            "--poisson",
+            "0.343",
+            "--density",
+            density,
+            "--radius",
+            "250um",
+            "--out",
+            "law.toml",
+        ];
+        said(
+            here,
+            &arguments,
+            if density == "8960kg/m3" && young == "128GPa" {
+                0
+            } else {
+                2
+            },
+        )
+    };
+    for (density, young, argument) in [
+        ("8.96kg/m3", "128GPa", "--density"),
+        ("8960kg/m3", "128TPa", "--young"),
+    ] {
+        let text = law(density, young);
+        assert!(
+            text.contains(argument) && text.contains("check the unit"),
+            "{text}"
+        );
+        assert!(!here.join("law.toml").exists());
+    }
+    law("8960kg/m3", "128GPa");
+    let eval = |displacement: &str, most: &[&str]| {
+        let call = [
+            "law",
+            "eval",
+            "law.toml",
+            "--body",
+            "250 um",
+            "--displacements",
+            displacement,
+        ];
+        said(here, &[&call[..], most].concat(), 2)
+    };
+    assert!(eval("300 um", &[]).contains("must be less than the radius"));
+    let back = ["--max-displacement", "0.5 um"];
+    assert!(eval("1 um", &back).contains("must be at most --max-displacement"));
+}
+
+#[test]
+fn results_of_another_study_are_not_overwritten() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let study = "particle.radius = \"1 mm\"\naccuracy.tolerance = 0.2\n[material]\ndensity = \"2700 kg/m3\"\nyoung_modulus = \"70 GPa\"\npoisson_ratio = 0.3\nyield_strength = \"200 MPa\"\n[impact]\nvelocities = [\"5 m/s\"]\n";
+    for name in ["a.toml", "b.toml"] {
+        std::fs::write(here.join(name), study).unwrap();
+    }
+    said(here, &["study", "a.toml", "--out", "o"], 0);
+    let results = || std::fs::read(here.join("o/results.csv")).unwrap();
+    let before = results();
+    let text = said(here, &["study", "b.toml", "--out", "o"], 2);
+    assert!(text.contains("the results of a.toml"), "{text}");
+    assert_eq!(results(), before);
+}
+
+#[test]
+fn a_comparison_with_another_law_leaves_that_of_the_own_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let case = "[particle]\nradius = \"250 um\"\n[material]\ndensity = \"8960 kg/m3\"\nyoung_modulus = \"128 GPa\"\npoisson_ratio = 0.343\nyield_strength = \"162 MPa\"\n[impact]\nvelocities = [\"20 m/s\"]\n[accuracy]\ntolerance = 0.2\n";
+    std::fs::write(here.join("cu.toml"), case).unwrap();
+    said(here, &["run", "cu.toml"], 0);
+    let own = || std::fs::read(here.join("out/cu/compare.csv")).unwrap();
+    let before = own();
+    said(here, &["compare", "cu.toml", "--law", "atlas"], 0);
+    assert_eq!(own(), before);
+    let other = std::fs::read_to_string(here.join("out/cu/compare-atlas/compare.csv")).unwrap();
+    assert!(
+        other.contains("atlas,") && !other.contains("fitted,"),
+        "{other}"
+    );
+}
+
+#[test]
+fn a_file_that_is_no_toml_is_called_what_it_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    std::fs::write(here.join("results.csv"), "a,b\n1,2\n").unwrap();
+    std::fs::write(here.join("part.stl"), [0u8, 159, 146, 150]).unwrap();
+    for file in ["results.csv", "part.stl"] {
+        let text = said(here, &["run", file], 2);
+        assert!(text.contains("must be a TOML file"), "{text}");
+    }
+}
+
+#[test]
+fn one_slip_in_a_case_is_told_as_such() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let case = "[particle]\nradius = \"1 mm\"\n[material]\ndensity = \"2700 kg/m3\"\nyoung_modulus = \"70 GPa\"\npoisson_ratio = 0.3\n[impact]\nvelocities = \"5 m/s\"\n[accuracy]\ntolerance = 0.02\n";
+    std::fs::write(here.join("case.toml"), case).unwrap();
+    let text = said(here, &["plan", "case.toml"], 2);
+    assert!(
+        text.contains("impact.velocities") && !text.contains("study file"),
+        "{text}"
+    );
+}
