@@ -32,6 +32,16 @@ pub fn named(error: Error) -> Error {
     }
 }
 
+/// Name of the kind of input file that was read as another one with this error.
+#[must_use]
+pub fn kind_of(error: &Error) -> Option<&'static str> {
+    let (Error::Value { place, .. } | Error::Syntax { place, .. }) = error else {
+        return None;
+    };
+    let (_, found) = place.as_deref().and_then(other)?;
+    Some(found.name)
+}
+
 /// What a file is that is no TOML file by its name and cannot be read as one.
 fn no_toml(error: &Error) -> Option<Error> {
     let path = match error {

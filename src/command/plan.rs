@@ -1,10 +1,15 @@
 //! Plan command: prints what would be run, why, and the predicted seconds.
 
+use super::another_kind::kind_of;
+use super::study_runs::{planned, queue};
 use crate::Result;
+use crate::bed::scene::Scene;
+use crate::bed::stages::time_step::lengths;
 use crate::case::Case;
 use crate::command::{Command, Context, Verdict, print, print_json};
 use crate::plan::{Plan, plans};
-use crate::unit::engineering;
+use crate::study::Study;
+use crate::unit::{engineering, significant};
 use clap::Args;
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -13,9 +18,9 @@ use std::path::PathBuf;
 /// Print what would be run, why, and the predicted seconds.
 #[derive(Debug, Args)]
 pub struct PlanArgs {
-    /// Case file.
+    /// Case, study or scene file.
     pub case: PathBuf,
-    /// Speeds, overriding the case's, e.g. `--velocity "10 m/s"`.
+    /// Speeds of a case, overriding the case's, e.g. `--velocity "10 m/s"`.
     #[arg(long)]
     pub velocity: Vec<String>,
     /// Print as JSON.
@@ -27,14 +32,31 @@ impl Command for PlanArgs {
     const EXAMPLES: &'static [&'static str] = &[
         "impactlaw plan cases/thesis-4-4.toml",
         r#"impactlaw plan cases/thesis-4-4.toml --velocity "120 m/s""#,
+        "impactlaw plan cases/study-480.toml",
+        "impactlaw plan cases/bed-drum.toml",
     ];
 
-    /// Print the plan of every speed.
+    /// Print the plan of every speed, or how long a study or a bed will take.
     ///
     /// # Errors
-    /// Those of reading and planning the case.
+    /// Those of reading and planning the file.
     fn run(&self, _context: &Context) -> Result<Verdict> {
-        let case = Case::read(&self.case)?.with_velocities(&self.velocity)?;
+        let case = match Case::read(&self.case) {
+            Ok(case) => case.with_velocities(&self.velocity)?,
+            Err(error) if self.velocity.is_empty() => {
+                let (values, said) = match kind_of(&error) {
+                    Some("study") => of_study(&planned(&self.case)?),
+                    Some("scene") => of_scene(&Scene::read(&self.case)?),
+                    _ => return Err(error),
+                };
+                match self.json {
+                    true => print_json(&values)?,
+                    false => print(&said)?,
+                }
+                return Ok(Verdict::Met);
+            }
+            Err(error) => return Err(error),
+        };
         let plans = plans(&case)?;
         match self.json {
             true => print_json(&json(&case, &plans))?,
@@ -42,6 +64,76 @@ impl Command for PlanArgs {
         }
         Ok(Verdict::Met)
     }
+}
+
+/// What a study takes: for programs, and for people.
+fn of_study(study: &Study) -> (Value, String) {
+    let queue = queue(study);
+    let seconds: f64 = queue.iter().map(|run| run.seconds).sum();
+    let longest = queue.iter().map(|run| run.seconds).fold(0.0, f64::max);
+    let values = json!({
+        "study": study.name,
+        "cases": study.cases.len(),
+        "runs": queue.len(),
+        "predicted_core_s": seconds,
+        "longest_run_core_s": longest,
+    });
+    let said = format!(
+        "{}: {} cases, {} runs that differ, {} core seconds together, the longest run {}\n",
+        study.name,
+        study.cases.len(),
+        queue.len(),
+        significant(seconds, 2),
+        significant(longest, 2)
+    );
+    (values, said)
+}
+
+/// What a bed takes at least, without its compressions.
+fn of_scene(scene: &Scene) -> (Value, String) {
+    let (lengths, grains) = lengths(scene);
+    let mut said = format!("{}: {} grains\n", scene.name, significant(grains, 6));
+    for length in &lengths {
+        let _ = match length.steps {
+            None => writeln!(
+                said,
+                "  {:<12} as long as the piston is under way",
+                length.stage
+            ),
+            Some(steps) => writeln!(
+                said,
+                "  {:<12} {}{} steps, {} core seconds",
+                length.stage,
+                if length.may_end { "at most " } else { "" },
+                significant(steps, 3),
+                significant(length.seconds, 2)
+            ),
+        };
+    }
+    let seconds: f64 = lengths.iter().map(|length| length.seconds).sum();
+    let _ = writeln!(
+        said,
+        "Together {} core seconds for each law, for steps as long as sound in a grain allows; stiff contacts and fast grains shorten them",
+        significant(seconds, 2)
+    );
+    let stages: Vec<Value> = lengths
+        .iter()
+        .map(|length| {
+            json!({
+                "stage": length.stage,
+                "steps": length.steps,
+                "may_end_earlier": length.may_end,
+                "predicted_core_s": length.seconds,
+            })
+        })
+        .collect();
+    let values = json!({
+        "scene": scene.name,
+        "grains": grains,
+        "stages": stages,
+        "predicted_core_s": seconds,
+    });
+    (values, said)
 }
 
 /// The plan for programs: lengths in m, times in s.

@@ -79,8 +79,8 @@ pub struct Queued {
     pub name: String,
     /// First case that it is.
     pub first: usize,
-    /// Predicted.
-    seconds: f64,
+    /// Predicted, s of one core.
+    pub seconds: f64,
 }
 
 /// Every run of a study, longest first.

@@ -205,3 +205,24 @@ fn one_slip_in_a_case_is_told_as_such() {
         "{text}"
     );
 }
+
+#[test]
+fn studies_and_beds_have_a_plan() {
+    let folder = tempfile::tempdir().unwrap();
+    let shipped = |name: &str| format!("{}/cases/{name}", env!("CARGO_MANIFEST_DIR"));
+    let plan = |name: &str| -> serde_json::Value {
+        let output = impactlaw(folder.path(), &["plan", &shipped(name), "--json"]);
+        assert_eq!(output.status.code(), Some(0), "{}", message(&output));
+        serde_json::from_slice(&output.stdout).unwrap()
+    };
+    let study = plan("study-480.toml");
+    assert_eq!(study["cases"], 480);
+    assert!(study["runs"].as_u64().unwrap() < 480);
+    assert!(study["predicted_core_s"].as_f64() > study["longest_run_core_s"].as_f64());
+    let bed = plan("solder-bed.toml");
+    assert_eq!(bed["grains"], 250.0);
+    let stages = bed["stages"].as_array().unwrap();
+    assert_eq!(stages.len(), 4);
+    assert_eq!(stages[1]["steps"], 2000.0);
+    assert!(stages[2]["steps"].is_null());
+}

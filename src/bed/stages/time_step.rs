@@ -239,40 +239,77 @@ const STEP: f64 = 0.4e-6;
 /// Longest stage that is begun, s of one core: a month.
 const LONGEST: f64 = 2.6e6;
 
+/// How long a stage is, before its first step.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Length {
+    /// Name of the stage.
+    pub stage: String,
+    /// Key of the file that says it.
+    key: String,
+    /// Steps, each as long as Rayleigh waves allow: contacts and fast grains may ask for shorter ones. `None` for a piston, whose
+    /// way is not known before.
+    pub steps: Option<f64>,
+    /// Whether a condition may end it earlier.
+    pub may_end: bool,
+    /// Time of one core, s.
+    pub seconds: f64,
+}
+
+/// Lengths of the stages of a scene, and the number of its grains.
+#[must_use]
+pub fn lengths(scene: &Scene) -> (Vec<Length>, f64) {
+    let grains = grains(scene);
+    let limits = Limits::of(scene.time, &scene.groups, &scene.materials, USUAL_STEPS);
+    let full = scene.contact.softening();
+    let length = |(index, stage): (usize, &Stage)| {
+        let (key, steps, may_end) = match stage {
+            Stage::Settle {
+                stiffness, longest, ..
+            } => ("longest", Some(longest / limits.rayleigh(*stiffness)), true),
+            Stage::Relax { steps } => ("steps", Some(*steps as f64), false),
+            Stage::Compress { .. } | Stage::Unload { .. } => ("speed", None, false),
+            Stage::Run(run) => {
+                let may_end = run.until != Until::default();
+                match run.longest {
+                    Duration::Time(time) => {
+                        ("duration", Some(time / limits.rayleigh(full)), may_end)
+                    }
+                    Duration::Steps(steps) => ("steps", Some(steps as f64), may_end),
+                }
+            }
+        };
+        Length {
+            stage: stage.name().to_owned(),
+            key: format!("stage[{index}].{key}"),
+            steps,
+            may_end,
+            seconds: steps.unwrap_or(0.0) * grains * STEP,
+        }
+    };
+    let stages = scene.stages.iter().enumerate();
+    (stages.map(length).collect(), grains)
+}
+
 /// That no stage lasts longer than a month on one core, as one of a slip of a unit does; stages that a condition ends are
 /// taken at their word.
 ///
 /// # Errors
 /// [`crate::Error::Value`] naming the stage, its steps and how long they take.
-pub fn check_lengths(scene: &Scene) -> Result<()> {
-    let grains = grains(scene);
-    let dt = |softening: f64| {
-        Limits::of(scene.time, &scene.groups, &scene.materials, USUAL_STEPS).rayleigh(softening)
-    };
-    let full = scene.contact.softening();
-    for (index, stage) in scene.stages.iter().enumerate() {
-        let (key, steps) = match stage {
-            Stage::Relax { steps } => ("steps", *steps as f64),
-            Stage::Run(run) if run.until != Until::default() => continue,
-            Stage::Run(run) => match run.longest {
-                Duration::Time(time) => ("duration", time / dt(full)),
-                Duration::Steps(steps) => ("steps", steps as f64),
-            },
-            Stage::Settle { .. } | Stage::Compress { .. } | Stage::Unload { .. } => continue,
-        };
-        if !(steps * grains * STEP <= LONGEST) {
+fn check_lengths(scene: &Scene) -> Result<()> {
+    let (lengths, grains) = lengths(scene);
+    let endless = |length: &&Length| !length.may_end && !(length.seconds <= LONGEST);
+    match lengths.iter().find(endless) {
+        None => Ok(()),
+        Some(length) => {
             let allowed = format!(
                 "must be shorter: {} steps of {} grains take some {} days of one core, and at most 30 are begun; check the units of the stage and the grains",
-                significant(steps, 2),
+                significant(length.steps.unwrap_or(0.0), 2),
                 significant(grains, 2),
-                significant(steps * grains * STEP / 86400.0, 2)
+                significant(length.seconds / 86400.0, 2)
             );
-            return Err(scene
-                .document
-                .reject(&format!("stage[{index}].{key}"), allowed));
+            Err(scene.document.reject(&length.key, allowed))
         }
     }
-    Ok(())
 }
 
 fn check_speeds(scene: &Scene) -> Result<()> {
