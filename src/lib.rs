@@ -31,6 +31,7 @@ pub mod files;
 pub mod fit;
 pub mod guide;
 pub mod impact;
+pub mod inverse;
 pub(crate) mod lanes;
 pub mod law;
 pub mod listing;
@@ -43,6 +44,7 @@ pub mod space;
 pub mod study;
 pub mod tape;
 pub mod theory;
+pub mod thesis;
 pub mod unit;
 pub mod view;
 

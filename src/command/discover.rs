@@ -1,12 +1,13 @@
 //! Discover command: from the results of a study to groups, rankings, equations and their scores.
 
-use super::show::discover::{Finding, page, summary};
+use super::show::discover::{Finding, page, summary, undetermined, units};
 use super::show::equations::{Known, file, finding_rows, rank_rows, written};
 use super::{Command, Context, Verdict, output_folder};
 use crate::discover::bound::Bound;
 use crate::discover::file::HEADER;
 use crate::discover::front::{Entry, Setting, chosen, front};
 use crate::discover::identity::identities;
+use crate::discover::more::Candidates;
 use crate::discover::physics::Places;
 use crate::discover::problem::{Inputs, Runs, Target, YIELD_SPEED, yield_speed};
 use crate::discover::ranking::{Ranked, ranking};
@@ -48,6 +49,9 @@ pub struct DiscoverArgs {
     /// Seed of everything that is drawn.
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
+    /// Run this many cases more, where the formulas found disagree most, into the store of the study, and look again.
+    #[arg(long, default_value_t = 0, value_name = "RUNS")]
+    pub add: usize,
     /// Largest structure that is enumerated, in nodes; the time grows about fourfold with each.
     #[arg(long, default_value_t = 4, value_parser = clap::value_parser!(u8).range(1..=9))]
     pub size: u8,
@@ -89,13 +93,24 @@ impl Command for DiscoverArgs {
                 allowed: "must lie in (0, 0.2], e.g. 0.02".to_owned(),
             });
         }
-        let (study, hash) = Study::read(&path, self)?;
+        let bytes = std::fs::read(&path).map_err(Error::file("read", &path))?;
+        let mut text = String::from_utf8_lossy(&bytes).into_owned();
+        let mut study = Study::parse(&text, &path, self)?;
+        let mut hash = hash_of(&bytes);
         let beside = path.parent().unwrap_or(Path::new("")).join("discover");
         let out = output_folder(Some(self.out.as_deref().unwrap_or(&beside)), "discover")?;
         context.open_log(&out, "discover", &hash);
         let provenance = context.provenance(&hash);
         context.say(&study.text())?;
-        let findings = super::on_a_worker(|| Ok(study.findings(self, context)))?;
+        let mut findings = super::on_a_worker(|| Ok(study.findings(self, context)))?;
+        let mut verdict = Verdict::Met;
+        if self.add > 0 {
+            (text, verdict) = self.more(&study, &findings, &path, context)?;
+            study = Study::parse(&text, &path, self)?;
+            hash = hash_of(text.as_bytes());
+            context.say(&study.text())?;
+            findings = super::on_a_worker(|| Ok(study.findings(self, context)))?;
+        }
         let mut ranks = Vec::new();
         let mut rows = Vec::new();
         for finding in &findings {
@@ -104,7 +119,7 @@ impl Command for DiscoverArgs {
         }
         write_rows(&out.join("ranking.csv"), &provenance, &ranks)?;
         write_rows(&out.join("discover.csv"), &provenance, &rows)?;
-        let undetermined: Vec<String> = study.undetermined();
+        let undetermined: Vec<String> = undetermined(&study.table, &study.inputs);
         let known = Known {
             table: &study.table,
             inputs: &study.inputs,
@@ -129,7 +144,48 @@ impl Command for DiscoverArgs {
         page(&study.text(), &findings, &provenance)?.write(&out)?;
         context.say(&said)?;
         context.say(&format!("-> {}\n", out.join("equations.toml").display()))?;
-        Ok(Verdict::Met)
+        Ok(verdict)
+    }
+}
+
+/// SHA-256 of results, hexadecimal.
+fn hash_of(bytes: &[u8]) -> String {
+    let digest = Sha256::digest(bytes);
+    digest.iter().map(|b| format!("{b:02x}")).collect()
+}
+
+impl DiscoverArgs {
+    /// Runs cases where the formulas of a first look disagree; both tables as text.
+    fn more(
+        &self,
+        study: &Study,
+        findings: &[Finding],
+        path: &Path,
+        context: &Context,
+    ) -> Result<(String, Verdict)> {
+        let bounds = self.bounds.iter();
+        let bounds = bounds.map(|bound| Bound::parse(bound, &study.table));
+        let bounds: Vec<Bound> = bounds.collect::<Result<_>>()?;
+        let candidates = Candidates::of(&study.table, &study.inputs, &bounds, self.seed);
+        let fronts: Vec<(&Target, &[Entry])> = study
+            .targets
+            .iter()
+            .zip(findings)
+            .map(|((_, target), finding)| (target, &finding.front[..]))
+            .collect();
+        let tolerance = self
+            .tolerance
+            .or(study.table.tolerance)
+            .unwrap_or(TOLERANCE);
+        let chosen = candidates.chosen(&study.runs, &fronts, tolerance, self.add);
+        let cases = super::discover_add::cases(&study.table, &candidates, &chosen)?;
+        let count = cases.len();
+        let (added, both, verdict) = super::discover_add::run(cases, path, context)?;
+        context.say(&format!(
+            "{count} runs added where the formulas disagree -> {}\n",
+            added.display()
+        ))?;
+        Ok((both, verdict))
     }
 }
 
@@ -144,15 +200,9 @@ struct Study {
 }
 
 impl Study {
-    /// Reads results; everything that is wrong with them is found here.
-    fn read(path: &Path, args: &DiscoverArgs) -> Result<(Self, String)> {
-        let bytes = std::fs::read(path).map_err(Error::file("read", path))?;
-        let hash = Sha256::digest(&bytes)
-            .iter()
-            .map(|b| format!("{b:02x}"))
-            .collect();
-        let text = String::from_utf8_lossy(&bytes);
-        let mut table = Table::parse(&text, path)?;
+    /// Looks at results; everything that is wrong with them is found here.
+    fn parse(text: &str, path: &Path, args: &DiscoverArgs) -> Result<Self> {
+        let mut table = Table::parse(text, path)?;
         let all = table.rows();
         for bound in &args.bounds {
             let rows = Bound::parse(bound, &table)?.rows(&table);
@@ -216,69 +266,13 @@ impl Study {
             runs,
             targets,
         };
-        Ok((study, hash))
+        Ok(study)
     }
 
     /// What units and rows say, as text.
     fn text(&self) -> String {
-        let list = |names: &[String]| match names.is_empty() {
-            true => "none".to_owned(),
-            false => names.join(", "),
-        };
-        let mut lines = vec![
-            format!(
-                "{} cases, {} distinct runs in {} levels ({} failed, {} outside --where, {} that do not yield are left out)",
-                self.table.rows(),
-                self.runs.columns.rows,
-                self.runs.level_count,
-                self.table.failed,
-                self.outside,
-                self.elastic
-            ),
-            format!("inputs that vary: {}", list(&self.inputs.free)),
-        ];
-        let converted = self.table.converted.iter();
-        lines.extend(converted.map(|(file, here)| format!("{file} is read as {here}")));
-        for name in &self.inputs.undetermined {
-            lines.push(match self.ruled_out(name) {
-                true => format!("{name} never changes; by units it is in no group"),
-                false => format!("{name} never changes: what it does is undetermined"),
-            });
-        }
-        lines.extend(
-            self.inputs
-                .dependent
-                .iter()
-                .map(|one| format!("not independent: {}", one.text())),
-        );
-        let groups: Vec<String> = self
-            .inputs
-            .groups
-            .iter()
-            .map(|group| group.text())
-            .collect();
-        lines.push(format!("groups: {}", list(&groups)));
-        lines.join("\n") + "\n"
-    }
-
-    /// Whether units alone keep a column that never changes out of every group.
-    fn ruled_out(&self, name: &str) -> bool {
-        use crate::discover::dimension::null_space;
-        let names = self.inputs.free.iter().map(String::as_str);
-        let of = |name: &str| self.table.input(name).map(|column| column.dimension);
-        let mut dimensions: Vec<_> = names.filter_map(of).collect();
-        let before = null_space(&dimensions).len();
-        dimensions.extend(of(name));
-        null_space(&dimensions).len() == before
-    }
-
-    /// Inputs that never change and that units do not rule out.
-    fn undetermined(&self) -> Vec<String> {
-        let names = self.inputs.undetermined.iter();
-        names
-            .filter(|name| !self.ruled_out(name))
-            .cloned()
-            .collect()
+        let counts = [self.outside, self.elastic];
+        units(&self.table, &self.inputs, &self.runs, counts)
     }
 
     /// Numbers of the materials: rows with equal inputs but for the speed.

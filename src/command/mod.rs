@@ -12,11 +12,13 @@ pub(crate) mod completions;
 pub(crate) mod cost;
 pub mod diagnostic;
 pub(crate) mod discover;
+mod discover_add;
 pub(crate) mod export;
 pub mod fit;
 pub mod help;
 pub(crate) mod impact;
 pub mod init;
+pub(crate) mod inverse;
 pub(crate) mod law;
 pub(crate) mod law_atlas;
 pub mod log;
@@ -28,6 +30,7 @@ pub mod schema;
 pub(crate) mod show;
 pub(crate) mod study;
 pub(crate) mod study_merge;
+pub(crate) mod study_report;
 pub(crate) mod study_runs;
 pub(crate) mod study_table;
 pub mod theory;
@@ -96,6 +99,7 @@ verbs! {
     Discover(discover::DiscoverArgs),
     Predict(predict::PredictArgs),
     Atlas(atlas::AtlasArgs),
+    Inverse(inverse::InverseArgs),
     Cost(cost::CostArgs),
     Export(export::ExportArgs),
     Law(law::LawArgs),

@@ -2,6 +2,7 @@
 
 use super::impact::interval;
 use super::study_merge::StudyMergeArgs;
+use super::study_report::StudyReportArgs;
 use super::study_runs::{Queued, SHARD, planned, queue, simulated, study_folder, whole};
 use super::study_table::{check_owner, report};
 use super::{Command, Context, Verdict, output_folder};
@@ -32,6 +33,8 @@ pub struct StudyArgs {
 pub enum StudyVerb {
     #[command(after_help = super::examples(StudyMergeArgs::EXAMPLES))]
     Merge(StudyMergeArgs),
+    #[command(after_help = super::examples(StudyReportArgs::EXAMPLES))]
+    Report(StudyReportArgs),
 }
 
 /// Arguments of a run.
@@ -69,6 +72,7 @@ impl Command for StudyArgs {
     fn run(&self, context: &Context) -> Result<Verdict> {
         match (&self.verb, &self.run) {
             (Some(StudyVerb::Merge(args)), _) => args.run(context),
+            (Some(StudyVerb::Report(args)), _) => args.run(context),
             (None, Some(args)) => args.run(context),
             (None, None) => Err(Error::Argument {
                 argument: "STUDY".to_owned(),

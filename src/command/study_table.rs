@@ -27,16 +27,8 @@ pub fn report(
     refine: usize,
     context: &Context,
 ) -> Result<Verdict> {
-    let rows: Vec<(&Case, Summary)> = study
-        .cases
-        .iter()
-        .map(|case| {
-            let (_, summary) = &runs[&Groups::of(case).name()];
-            (case, scaled(summary, &REFERENCE, case))
-        })
-        .collect();
     let path = out.join("results.csv");
-    write_atomic(&path, &table(&rows, &provenance(study), &path)?)?;
+    write_atomic(&path, &rows_of(study, runs, &path)?)?;
     let times: Vec<Time> = runs.iter().map(|(run, (_, s))| Time::of(run, s)).collect();
     write_rows(
         &out.join("times.csv"),
@@ -45,10 +37,11 @@ pub fn report(
     )?;
     let overview = show::study::overview(runs.values().map(|(i, s)| (&study.cases[*i], s)));
     write_atomic(&out.join("study.md"), overview.as_bytes())?;
-    let ok = rows.iter().filter(|(_, s)| s.status == Status::Ok).count();
+    let status = |case: &&Case| runs[&Groups::of(case).name()].1.status == Status::Ok;
+    let ok = study.cases.iter().filter(status).count();
     context.say(&format!(
         "{} cases, {} runs, {ok} with status ok -> {}\n",
-        rows.len(),
+        study.cases.len(),
         runs.len(),
         path.display()
     ))?;
@@ -56,7 +49,7 @@ pub fn report(
         0 => true,
         count => refinement(study, runs, out, count, context)?,
     };
-    Ok(if ok == rows.len() && met {
+    Ok(if ok == study.cases.len() && met {
         Verdict::Met
     } else {
         Verdict::Missed
@@ -86,6 +79,22 @@ pub fn check_owner(out: &Path, study: &Study) -> Result<()> {
 
 /// What stands before the name of the study in the provenance of its results.
 const STUDY: &str = "; impactlaw study ";
+
+/// Text of `results.csv`: the figures of the runs of each case.
+///
+/// # Errors
+/// [`Error::File`] naming `path` for rows that make no table.
+pub fn rows_of(study: &Study, runs: &Runs, path: &Path) -> Result<Vec<u8>> {
+    let rows: Vec<(&Case, Summary)> = study
+        .cases
+        .iter()
+        .map(|case| {
+            let (_, summary) = &runs[&Groups::of(case).name()];
+            (case, scaled(summary, &REFERENCE, case))
+        })
+        .collect();
+    table(&rows, &provenance(study), path)
+}
 
 /// Line on top of `results.csv`: the same however the runs were made, so that the parts of a study make the bytes of the whole.
 fn provenance(study: &Study) -> String {

@@ -13,6 +13,7 @@ pub(crate) mod formula;
 pub(crate) mod front;
 pub(crate) mod identity;
 pub mod infix;
+pub(crate) mod more;
 pub(crate) mod physics;
 pub mod problem;
 pub(crate) mod process;

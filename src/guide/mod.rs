@@ -20,6 +20,7 @@ chapters! {
     study, "study.md";
     discover, "discover.md";
     atlas, "atlas.md";
+    inverse, "inverse.md";
     accuracy, "accuracy.md";
     solver, "solver.md";
     measured, "measured.md";

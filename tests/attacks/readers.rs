@@ -82,10 +82,30 @@ pub const READERS: &[Reader] = &[
     },
     Reader {
         name: "results.csv",
-        sources: &["discover/table.rs", "command/discover.rs"],
+        sources: &[
+            "discover/table.rs",
+            "command/discover.rs",
+            "command/discover_add.rs",
+        ],
         kind: Kind::Text,
         seeds: || vec![results::RESULTS.into(), results::WRITTEN.into()],
         read: results::results,
+        share: 5,
+    },
+    Reader {
+        name: "results.csv of a report",
+        sources: &["command/study_report.rs"],
+        kind: Kind::Text,
+        seeds: || vec![results::reported().into()],
+        read: results::report,
+        share: 5,
+    },
+    Reader {
+        name: "measured impacts",
+        sources: &["command/inverse.rs"],
+        kind: Kind::Text,
+        seeds: || vec![results::MEASURED.into(), results::FLATS.into()],
+        read: results::measured,
         share: 5,
     },
     Reader {

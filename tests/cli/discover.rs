@@ -532,3 +532,97 @@ fn equations_of_the_480_cases_are_found_from_raw_columns() {
         }
     }
 }
+
+#[test]
+fn runs_are_added_within_the_range_of_the_study_and_kept() {
+    const STUDY: &str = r#"
+[particle]
+radius = "0.5 mm"
+[material]
+density = ["4 g/cm3", "8 g/cm3"]
+young_modulus = ["50 GPa", "100 GPa"]
+poisson_ratio = 0.3
+yield_strength = ["500 MPa", "1000 MPa"]
+[impact]
+velocities = ["10 m/s", "40 m/s"]
+[accuracy]
+tolerance = 0.2
+"#;
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    std::fs::write(here.join("s.toml"), STUDY).unwrap();
+    let output = impactlaw(here, &["study", "s.toml", "-q"]);
+    assert!(output.status.success(), "{}", message(&output));
+    let before = std::fs::read(here.join("out/s/results.csv")).unwrap();
+    let search = [
+        "discover",
+        "out/s",
+        "--size",
+        "3",
+        "--rounds",
+        "0",
+        "--target",
+        "restitution",
+    ];
+    let add = |count: &str| {
+        let output = impactlaw(here, &[&search[..], &["--add", count]].concat());
+        assert!(output.status.success(), "{}", message(&output));
+        let said = String::from_utf8(output.stdout).unwrap();
+        let found = std::fs::read(here.join("out/s/discover/equations.toml")).unwrap();
+        (said, rows(&here.join("out/s/added.csv")), found)
+    };
+    let (said, added, found) = add("3");
+    assert!(
+        said.contains("16 cases") && said.contains("3 runs added") && said.contains("19 cases"),
+        "{said}"
+    );
+    assert_eq!(added.len(), 3);
+    for row in &added {
+        let (q, ratio) = (
+            number(row, "rho_V2_over_Y"),
+            number(row, "young_over_yield"),
+        );
+        assert!((50.0 * 0.999..=200.0 * 1.001).contains(&ratio), "{row:?}");
+        // 4000 kg/m3, 10 m/s at 1 GPa to 8000 kg/m3, 40 m/s at 500 MPa
+        assert!((4e-4 * 0.999..=2.56e-2 * 1.001).contains(&q), "{row:?}");
+        assert_eq!(row["status"], "ok");
+        assert_eq!(number(row, "tolerance"), 0.2);
+    }
+    assert_eq!(
+        before,
+        std::fs::read(here.join("out/s/results.csv")).unwrap()
+    );
+    // the same again, from what is kept
+    let runs = || here.join("out/s/runs").read_dir().unwrap().count();
+    let count = runs();
+    let (_, again, same) = add("3");
+    assert_eq!((&added, &found), (&again, &same));
+    assert_eq!(runs(), count);
+    // the first of more are those of fewer
+    let (_, more, _) = add("4");
+    assert_eq!(more[..3], added);
+    // a table that is not a study's own is refused before anything is run
+    write(here, HEAD, &known());
+    let output = impactlaw(
+        here,
+        &[
+            "discover",
+            "results.csv",
+            "--size",
+            "2",
+            "--rounds",
+            "0",
+            "--target",
+            "restitution",
+            "--add",
+            "2",
+        ],
+    );
+    assert_eq!(output.status.code(), Some(2));
+    let said = message(&output);
+    assert!(
+        said.contains("tolerance") && said.contains("results.csv of a study as it is"),
+        "{said}"
+    );
+    assert!(!here.join("runs").exists());
+}

@@ -365,6 +365,7 @@ fn every_column_of_every_file_has_its_line_and_no_other() {
     let quick = ["--size", "2", "--rounds", "0", "--target", "restitution"];
     let discover = ["discover", results, "--out", "found"];
     printed(here, &[&discover[..], &quick].concat());
+    printed(here, &["study", "report", results, "--out", "reported"]);
     let met = assert_described(here);
 
     let reference = columns();

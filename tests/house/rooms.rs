@@ -24,6 +24,7 @@ const ROOMS: Order = &[
     &["atlas"],
     &["law"],
     &["compare", "cost", "discover"],
+    &["inverse", "thesis"],
     &["dem"],
     &["listing", "view"],
     &["bed"],

@@ -5,6 +5,7 @@ mod examples;
 mod fit_finite_element;
 mod fit_synthetic;
 mod impacts;
+mod inverse;
 mod law_file;
 mod law_guarantees;
 mod rebound_inertia;

@@ -3,15 +3,17 @@
 use crate::Result;
 use crate::discover::front::Entry;
 use crate::discover::identity::Identity;
+use crate::discover::problem::{Inputs, Runs};
 use crate::discover::ranking::Ranked;
 use crate::discover::score::Score;
 use crate::discover::search::misfit_bits;
+use crate::discover::table::Table;
 use crate::report::chart::{Chart, Mark, Series};
 use crate::report::figure::Figure;
 use crate::report::page::{Block, Page, Section};
 use crate::report::palette::Role;
 use crate::report::scale::Axis;
-use crate::report::table::Table;
+use crate::report::table::Table as Shown;
 use crate::unit::significant;
 use std::fmt::Write;
 
@@ -221,6 +223,70 @@ impl Finding {
     }
 }
 
+/// What units and rows say, as text; `outside` and `elastic`: rows outside `--where`, and those that do not yield.
+#[must_use]
+pub fn units(
+    table: &Table,
+    inputs: &Inputs,
+    runs: &Runs,
+    [outside, elastic]: [usize; 2],
+) -> String {
+    let list = |names: &[String]| match names.is_empty() {
+        true => "none".to_owned(),
+        false => names.join(", "),
+    };
+    let mut lines = vec![
+        format!(
+            "{} cases, {} distinct runs in {} levels ({} failed, {} outside --where, {} that do not yield are left out)",
+            table.rows(),
+            runs.columns.rows,
+            runs.level_count,
+            table.failed,
+            outside,
+            elastic
+        ),
+        format!("inputs that vary: {}", list(&inputs.free)),
+    ];
+    let converted = table.converted.iter();
+    lines.extend(converted.map(|(file, here)| format!("{file} is read as {here}")));
+    for name in &inputs.undetermined {
+        lines.push(match ruled_out(table, inputs, name) {
+            true => format!("{name} never changes; by units it is in no group"),
+            false => format!("{name} never changes: what it does is undetermined"),
+        });
+    }
+    lines.extend(
+        inputs
+            .dependent
+            .iter()
+            .map(|one| format!("not independent: {}", one.text())),
+    );
+    let groups: Vec<String> = inputs.groups.iter().map(|group| group.text()).collect();
+    lines.push(format!("groups: {}", list(&groups)));
+    lines.join("\n") + "\n"
+}
+
+/// Whether units alone keep a column that never changes out of every group.
+fn ruled_out(table: &Table, inputs: &Inputs, name: &str) -> bool {
+    use crate::discover::dimension::null_space;
+    let names = inputs.free.iter().map(String::as_str);
+    let of = |name: &str| table.input(name).map(|column| column.dimension);
+    let mut dimensions: Vec<_> = names.filter_map(of).collect();
+    let before = null_space(&dimensions).len();
+    dimensions.extend(of(name));
+    null_space(&dimensions).len() == before
+}
+
+/// Inputs that never change and that units do not rule out.
+#[must_use]
+pub fn undetermined(table: &Table, inputs: &Inputs) -> Vec<String> {
+    let names = inputs.undetermined.iter();
+    names
+        .filter(|name| !ruled_out(table, inputs, name))
+        .cloned()
+        .collect()
+}
+
 /// Everything as Markdown.
 #[must_use]
 pub fn summary(study: &str, findings: &[Finding]) -> String {
@@ -273,7 +339,7 @@ pub fn page(study: &str, findings: &[Finding], provenance: &str) -> Result<Page>
         let part = |caption: &str, columns: &[usize]| {
             let pick = |row: &[String]| columns.iter().map(|&i| row[i].clone()).collect();
             let head: Vec<&str> = columns.iter().map(|&i| head[i]).collect();
-            let mut table = Table::new(caption, &head);
+            let mut table = Shown::new(caption, &head);
             table.rows = rows.iter().map(|row| pick(row)).collect();
             Block::Table(table)
         };

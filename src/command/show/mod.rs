@@ -4,8 +4,10 @@ mod bed;
 pub(crate) mod discover;
 pub(crate) mod equations;
 mod impacts;
+pub(crate) mod inverse;
 mod law;
 pub(crate) mod study;
+pub(crate) mod thesis;
 
 pub use bed::bed;
 pub use impacts::{choices, curves, maps};

@@ -7,6 +7,8 @@ use impactlaw::discover::infix::Infix;
 use impactlaw::discover::problem::{Inputs, Runs};
 use impactlaw::discover::table::Table;
 use impactlaw::document::Document;
+use impactlaw::inverse::measurement::{Measurements, Taken, Uncertainty};
+use impactlaw::thesis::{Data, Row, claims};
 use std::path::Path;
 
 /// Results of a study, as far as `discover` looks at them.
@@ -40,6 +42,71 @@ pub(super) fn results(bytes: &[u8], _: &Path) -> Accepted {
         }
     }
     true
+}
+
+/// Results of a study that has enough cases for a report.
+pub(super) fn reported() -> String {
+    let text = include_str!("../../data/study-480.csv");
+    text.lines()
+        .step_by(14)
+        .fold(String::new(), |mut all, line| {
+            // the header is the second line
+            if all.is_empty() {
+                all = text.lines().nth(1).unwrap_or_default().to_owned() + "\n";
+                return all;
+            }
+            all + line + "\n"
+        })
+}
+
+pub(super) fn report(bytes: &[u8], _: &Path) -> Accepted {
+    let Ok(data) = Data::parse(&text(bytes), Path::new("results.csv")) else {
+        return false;
+    };
+    let inside = data.usable(Row::inside);
+    assert!(inside.len() >= 12);
+    assert!(
+        inside
+            .iter()
+            .all(|row| row.severity() > 0.0 && row.work.is_finite())
+    );
+    let _ = claims(&data);
+    true
+}
+
+/// Measured impacts.
+pub(super) const MEASURED: &str = "# made by a test\nvelocity_m_s,restitution,restitution_sigma,velocity_sigma_m_s,who\n1,0.4,0.02,0.1,me\n\
+    3,0.3,,0.1,me\n10,0.2,0.01,,you\n";
+
+/// The same, of flats, in other units.
+pub(super) const FLATS: &str = "Velocity (mm/s);flat_diameter [um];diameter_mm;diameter_sigma_um;compression_ratio\n\
+    5000;80;0.2;2;0.05\n8000;120;;;\n";
+
+pub(super) fn measured(bytes: &[u8], _: &Path) -> Accepted {
+    let mut accepted = false;
+    for cap in [false, true] {
+        let taken = Taken {
+            radius: 1e-4,
+            uncertainty: Uncertainty::default(),
+            cap,
+        };
+        let read = Measurements::parse(&text(bytes), Path::new("m.csv"), &taken);
+        for row in read.iter().flat_map(|read| &read.all) {
+            accepted = true;
+            assert!(row.velocity > 0.0 && row.velocity.is_finite());
+            assert!(row.value > 0.0 && row.value < 1.0, "{row:?}");
+            assert!(
+                row.sigma.is_none_or(|s| s > 0.0 && s.is_finite()),
+                "{row:?}"
+            );
+            assert!(row.velocity_sigma >= 0.0 && row.velocity_sigma <= 0.5);
+            assert!(
+                row.radius_slope.is_finite() && row.radius_sigma <= 0.5,
+                "{row:?}"
+            );
+        }
+    }
+    accepted
 }
 
 /// A file of equations.

@@ -1,0 +1,341 @@
+//! The cases of a study as the thesis looks at them: every row with its status, and its numbers without dimension.
+
+use crate::discover::dimension::Named;
+use crate::material::{Flow, Material};
+use crate::{Error, Result};
+use std::f64::consts::PI;
+use std::path::Path;
+
+/// Largest $\rho V^2/Y$ of the thesis: that of its largest plastic strain, 1.53, by its equation 4-4.
+pub const LARGEST: f64 = 3.2;
+/// Peak pressure at first yield over Y (thesis 4-10, 4-11).
+const PRESSURE: f64 = 1.6;
+
+/// A case with its figures, SI units; NaN where a run did not end well.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    /// rho.
+    pub density: f64,
+    /// E.
+    pub young_modulus: f64,
+    /// Y.
+    pub strength: f64,
+    /// nu.
+    pub poisson_ratio: f64,
+    /// R.
+    pub radius: f64,
+    /// V.
+    pub velocity: f64,
+    /// e.
+    pub restitution: f64,
+    /// F*.
+    pub force: f64,
+    /// delta*.
+    pub displacement: f64,
+    /// delta_res; NaN where the table has none.
+    pub residual: f64,
+    /// 1 - H_d/D.
+    pub compression: f64,
+    /// eps_p.
+    pub strain: f64,
+    /// W_p/W_i.
+    pub work: f64,
+    /// Tolerance it was planned for; NaN where the table does not say it.
+    pub tolerance: f64,
+    /// How the run ended.
+    pub status: String,
+}
+
+impl Row {
+    /// $q = \rho V^2/Y$.
+    #[must_use]
+    pub fn severity(&self) -> f64 {
+        self.density * self.velocity * self.velocity / self.strength
+    }
+
+    /// Its material.
+    #[must_use]
+    pub fn material(&self) -> Material {
+        Material {
+            density: self.density,
+            young_modulus: self.young_modulus,
+            poisson_ratio: self.poisson_ratio,
+            flow: Some(Flow::perfectly_plastic(self.strength)),
+        }
+    }
+
+    /// E/Y.
+    #[must_use]
+    pub fn young_over_yield(&self) -> f64 {
+        self.young_modulus / self.strength
+    }
+
+    /// E*, Pa.
+    #[must_use]
+    pub fn contact_modulus(&self) -> f64 {
+        self.young_modulus / (1.0 - self.poisson_ratio * self.poisson_ratio)
+    }
+
+    /// E*/Y.
+    #[must_use]
+    pub fn stiffness(&self) -> f64 {
+        self.contact_modulus() / self.strength
+    }
+
+    /// V_y by (4-3), m/s.
+    #[must_use]
+    pub fn first_yield(&self) -> f64 {
+        (26.0 * self.strength / self.density).sqrt() / self.stiffness().powi(2)
+    }
+
+    /// V/V_y.
+    #[must_use]
+    pub fn over_yield(&self) -> f64 {
+        self.velocity / self.first_yield()
+    }
+
+    /// F_y by (4-10), N.
+    #[must_use]
+    pub fn yield_force(&self) -> f64 {
+        let pressure = PRESSURE * self.strength;
+        PI.powi(3) * pressure.powi(3) * self.radius.powi(2) / (6.0 * self.contact_modulus().powi(2))
+    }
+
+    /// delta_y by (4-11), m.
+    #[must_use]
+    pub fn yield_displacement(&self) -> f64 {
+        let pressure = PRESSURE * self.strength;
+        (PI * pressure / (2.0 * self.contact_modulus())).powi(2) * self.radius
+    }
+
+    /// $\pi R^2 (Y \rho V^2)^{1/2}$, N.
+    #[must_use]
+    pub fn force_scale(&self) -> f64 {
+        PI * self.radius.powi(2) * (self.strength * self.density).sqrt() * self.velocity
+    }
+
+    /// Whether its figures can be used.
+    #[must_use]
+    pub fn ok(&self) -> bool {
+        self.status == "ok"
+    }
+
+    /// Whether it yields.
+    #[must_use]
+    pub fn plastic(&self) -> bool {
+        self.over_yield() > 1.0
+    }
+
+    /// Whether it lies where the thesis has results: it yields, and q is at most 3.2.
+    #[must_use]
+    pub fn inside(&self) -> bool {
+        self.plastic() && self.severity() <= LARGEST
+    }
+}
+
+/// Cases of a study.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Data {
+    /// Normal impacts of perfectly plastic bodies on a frictionless wall.
+    pub rows: Vec<Row>,
+    /// Others, of which the thesis says nothing.
+    pub others: usize,
+}
+
+/// Inputs that must be there, and those that must be 0 or absent, by the beginnings of their names.
+const INPUTS: [&str; 6] = [
+    "density_kg_m3",
+    "young_modulus_Pa",
+    "yield_strength_Pa",
+    "poisson_ratio",
+    "radius_m",
+    "velocity_m_s",
+];
+const FIGURES: [&str; 6] = [
+    "restitution",
+    "max_force_N",
+    "max_displacement_m",
+    "compression_ratio",
+    "equivalent_plastic_strain",
+    "plastic_work_ratio",
+];
+const ABSENT: [&str; 6] = [
+    "hardening_",
+    "saturation_",
+    "rate_",
+    "thermal_",
+    "angle_deg",
+    "friction",
+];
+
+impl Data {
+    /// Reads the text of `results.csv`.
+    ///
+    /// # Errors
+    /// [`Error::Value`] for what is no such table, or has no case the thesis speaks of.
+    pub fn parse(text: &str, path: &Path) -> Result<Self> {
+        let refuse = |key: &str, found: String, allowed: &str| Error::Value {
+            path: path.to_owned(),
+            key: key.to_owned(),
+            found,
+            allowed: allowed.to_owned(),
+            place: None,
+        };
+        let broken = |error: csv::Error| {
+            refuse(
+                "table",
+                error.to_string(),
+                "must be the results.csv of a study",
+            )
+        };
+        let mut reader = csv::ReaderBuilder::new()
+            .comment(Some(b'#'))
+            .trim(csv::Trim::All)
+            .from_reader(text.as_bytes());
+        let heads = reader.headers().map_err(broken)?.clone();
+        let columns: Vec<(String, f64)> = heads
+            .iter()
+            .map(|head| match Named::of(head) {
+                Some(named) => (named.name, named.factor),
+                None => (head.to_owned(), 1.0),
+            })
+            .collect();
+        let place = |name: &str| columns.iter().position(|(known, _)| known == name);
+        for name in INPUTS.iter().chain(&FIGURES) {
+            if place(name).is_none() {
+                return Err(refuse(
+                    name,
+                    "no such column".to_owned(),
+                    "must be there: a report needs the results.csv of a study",
+                ));
+            }
+        }
+        let others: Vec<usize> = (0..columns.len())
+            .filter(|&i| {
+                let name = &columns[i].0;
+                !name.contains("_over_") && ABSENT.iter().any(|start| name.starts_with(start))
+            })
+            .collect();
+        let mut data = Data {
+            rows: Vec::new(),
+            others: 0,
+        };
+        for record in reader.records() {
+            let record = record.map_err(broken)?;
+            let line = record.position().map_or(0, csv::Position::line);
+            let cell = |at: Option<usize>| at.and_then(|at| record.get(at)).unwrap_or_default();
+            let number = |name: &str| {
+                let at = place(name);
+                let factor = at.map_or(1.0, |at| columns[at].1);
+                cell(at).parse::<f64>().map_or(f64::NAN, |x| x * factor)
+            };
+            let is_set = |i: &&usize| {
+                let value = cell(Some(**i)).parse::<f64>();
+                value.is_ok_and(|value| value.is_finite() && value != 0.0)
+            };
+            let status = match place("status") {
+                Some(at) => cell(Some(at)).to_owned(),
+                None => "ok".to_owned(),
+            };
+            let row = Row {
+                density: number("density_kg_m3"),
+                young_modulus: number("young_modulus_Pa"),
+                strength: number("yield_strength_Pa"),
+                poisson_ratio: number("poisson_ratio"),
+                radius: number("radius_m"),
+                velocity: number("velocity_m_s"),
+                restitution: number("restitution"),
+                force: number("max_force_N"),
+                displacement: number("max_displacement_m"),
+                residual: number("residual_displacement_m"),
+                compression: number("compression_ratio"),
+                strain: number("equivalent_plastic_strain"),
+                work: number("plastic_work_ratio"),
+                tolerance: number("tolerance"),
+                status,
+            };
+            if others.iter().any(|i| is_set(&i)) || row.strength.is_nan() {
+                data.others += 1;
+                continue;
+            }
+            let inputs = [
+                row.density,
+                row.young_modulus,
+                row.strength,
+                row.radius,
+                row.velocity,
+            ];
+            let positive = |x: &f64| *x > 0.0 && x.is_finite();
+            if !inputs.iter().all(positive) || !(0.0..0.5).contains(&row.poisson_ratio) {
+                return Err(refuse(
+                    &format!("line {line}"),
+                    "an input that is no positive number".to_owned(),
+                    "density, moduli, radius and speed must be above 0, Poisson's ratio in [0, 0.5)",
+                ));
+            }
+            let figures = [
+                row.restitution,
+                row.force,
+                row.displacement,
+                row.compression,
+                row.strain,
+                row.work,
+            ];
+            if row.ok() && !figures.iter().all(|x| x.is_finite()) {
+                return Err(refuse(
+                    &format!("line {line}"),
+                    "a figure without number in a row with status ok".to_owned(),
+                    "must be a number",
+                ));
+            }
+            data.rows.push(row);
+        }
+        let usable = data.usable(Row::inside).len();
+        if usable < FEWEST {
+            return Err(refuse(
+                "rows",
+                format!("{usable} that end well, yield and have rho V^2/Y up to {LARGEST}"),
+                "must be at least 12 of perfectly plastic bodies: the equations of the thesis are of these",
+            ));
+        }
+        Ok(data)
+    }
+
+    /// Rows that ended well and are `wanted`.
+    #[must_use]
+    pub fn usable(&self, wanted: impl Fn(&Row) -> bool) -> Vec<&Row> {
+        self.rows
+            .iter()
+            .filter(|row| row.ok() && wanted(row))
+            .collect()
+    }
+
+    /// Distinct values of a column, ascending; equal to nine digits.
+    #[must_use]
+    pub fn distinct(&self, of: impl Fn(&Row) -> f64) -> Vec<f64> {
+        distinct(self.rows.iter().map(of).collect())
+    }
+
+    /// The row with these numbers.
+    #[must_use]
+    pub fn at(&self, density: f64, young: f64, ratio: f64, velocity: f64) -> Option<&Row> {
+        let near = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-6;
+        self.rows.iter().find(|row| {
+            near(row.density, density)
+                && near(row.young_modulus, young)
+                && near(row.young_over_yield(), ratio)
+                && near(row.velocity, velocity)
+        })
+    }
+}
+
+/// Fewest rows of a report.
+const FEWEST: usize = 12;
+
+/// Distinct values, ascending; equal to nine digits.
+#[must_use]
+pub fn distinct(mut values: Vec<f64>) -> Vec<f64> {
+    values.sort_by(f64::total_cmp);
+    values.dedup_by(|a, b| (*a - *b).abs() <= 1e-9 * b.abs());
+    values
+}
