@@ -103,7 +103,7 @@ fn what_cannot_be_used_is_one_clear_error_and_nothing_is_written() {
         (
             "velocity_m_s,restitution\n1,1.1\n",
             &[],
-            "line 2, restitution: found `1.1`; must be below 1",
+            "`line 2, restitution`: found `1.1`; must be below 1",
         ),
         ("velocity_m_s,restitution\n1,1\n", &[], "stayed elastic"),
         (
