@@ -258,7 +258,9 @@ impl Inputs {
         let fixed = undetermined.iter().copied().filter(|column| {
             !column.dimension.is_none() && column.values.iter().all(|value| *value > 0.0)
         });
-        let columns: Vec<&Column> = free.iter().copied().chain(fixed).collect();
+        let mut columns: Vec<&Column> = free.iter().copied().chain(fixed).collect();
+        // in the order of the table, whose first column stands above the line of a group
+        columns.sort_by_key(|column| table.inputs.iter().position(|one| one.name == column.name));
         let dimensions: Vec<Dimension> = columns.iter().map(|column| column.dimension).collect();
         let merit = |exponents: &[i32]| {
             let logs = Product::new(&columns, exponents).logs(table);

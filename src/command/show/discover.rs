@@ -250,9 +250,12 @@ pub fn units(
     let converted = table.converted.iter();
     lines.extend(converted.map(|(file, here)| format!("{file} is read as {here}")));
     for name in &inputs.undetermined {
-        lines.push(match ruled_out(table, inputs, name) {
-            true => format!("{name} never changes; by units it is in no group"),
-            false => format!("{name} never changes: what it does is undetermined"),
+        lines.push(if stands(inputs, name) {
+            format!("{name} never changes; it takes part in groups by its unit")
+        } else if ruled_out(table, inputs, name) {
+            format!("{name} never changes; by units it is in no group")
+        } else {
+            format!("{name} never changes: what it does is undetermined")
         });
     }
     lines.extend(
@@ -266,6 +269,11 @@ pub fn units(
     lines.join("\n") + "\n"
 }
 
+/// Whether a column stands in a group.
+fn stands(inputs: &Inputs, name: &str) -> bool {
+    inputs.groups.iter().any(|group| group.of(name) != 0)
+}
+
 /// Whether units alone keep a column that never changes out of every group.
 fn ruled_out(table: &Table, inputs: &Inputs, name: &str) -> bool {
     use crate::discover::dimension::null_space;
@@ -277,12 +285,12 @@ fn ruled_out(table: &Table, inputs: &Inputs, name: &str) -> bool {
     null_space(&dimensions).len() == before
 }
 
-/// Inputs that never change and that units do not rule out.
+/// Inputs that never change, stand in no group, and that units do not rule out.
 #[must_use]
 pub fn undetermined(table: &Table, inputs: &Inputs) -> Vec<String> {
     let names = inputs.undetermined.iter();
     names
-        .filter(|name| !ruled_out(table, inputs, name))
+        .filter(|name| !stands(inputs, name) && !ruled_out(table, inputs, name))
         .cloned()
         .collect()
 }
