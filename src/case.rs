@@ -3,13 +3,15 @@
 use crate::document::Document;
 use crate::document::keys::{Kind, Value as _, key, keys, table};
 use crate::document::range;
-use crate::material::Material;
 use crate::material::flow::{FlowConstants, InText, WithFlow};
+use crate::material::{Flow, Material};
 use crate::unit::{self, Angle, Density, Length, Pressure, Quantity, Velocity};
 use crate::{Error, Result};
+use named::Given;
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 
+pub mod named;
 pub(crate) mod slips;
 
 /// A checked case, SI units. Read with [`Case::read`].
@@ -44,7 +46,7 @@ struct CaseFile {
     #[serde(default)]
     unusual: Vec<String>,
     particle: ParticleTable,
-    material: MaterialTable,
+    material: Given,
     impact: ImpactTable,
     wall: Option<WallTable>,
     accuracy: AccuracyTable,
@@ -54,7 +56,7 @@ struct CaseFile {
 keys! {
     CaseFile {
         particle: table("the particle"),
-        material: table("its material"),
+        material: table("its material: constants, or the name of one of `models/constants/` (`material = \"ofhc-copper\"` above the tables)"),
         impact: table("speeds"),
         wall: table("the rigid wall").or("frictionless"),
         accuracy: table("what the run is planned for"),
@@ -201,10 +203,7 @@ impl Case {
             path: document.path().to_owned(),
             hash: document.hash(),
             radius: document.within("particle.radius", file.particle.radius.si())?,
-            material: {
-                let MaterialTable { others, flow } = file.material;
-                others.check(&flow, document, "material")?
-            },
+            material: file.material.check(document)?,
             velocities: file.impact.check(document)?,
             angle: file.impact.angle(document)?,
             friction: file.wall.map_or(Ok(0.0), |wall| wall.check(document))?,
@@ -257,6 +256,11 @@ impl Case {
                 let allowed = constant.range.rule(young_modulus);
                 return Err(refuse(constant.key, value.to_string(), &allowed));
             }
+        }
+        if let Some((constant, allowed)) = flow.and_then(Flow::contradiction) {
+            let value = flow.and_then(|flow| flow.value(&constant));
+            let found = value.unwrap_or(f64::NAN).to_string();
+            return Err(refuse(constant.key, found, &allowed));
         }
         let mut velocities = velocities.to_vec();
         velocities.sort_by(f64::total_cmp);

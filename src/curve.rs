@@ -106,6 +106,9 @@ pub struct Summary {
     /// Wall time, s.
     #[serde(deserialize_with = "number_or_null")]
     pub wall_s: f64,
+    /// What plastic work heated; absent where the flow stress knows no temperature.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub heating: Option<Heating>,
     /// What happened along the wall; absent from normal impacts on a frictionless wall.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tangential: Option<Tangential>,
@@ -233,6 +236,27 @@ impl Particle {
             })
             .collect()
     }
+}
+
+/// What became of the plastic work of matter that heats (table `heating` of `summary.json`). The body begins at its room
+/// temperature; repeated impacts begin as warm as the one before left it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Heating {
+    /// Plastic work that became heat over the incident kinetic energy.
+    #[serde(deserialize_with = "number_or_null")]
+    pub heat_ratio: f64,
+    /// Plastic work that stays stored in the material over the incident kinetic energy.
+    #[serde(deserialize_with = "number_or_null")]
+    pub stored_work_ratio: f64,
+    /// Highest temperature of a material point, K.
+    #[serde(rename = "max_temperature_K")]
+    #[serde(deserialize_with = "number_or_null")]
+    pub max_temperature_k: f64,
+    /// Volume mean of the temperature at the end, K.
+    #[serde(rename = "mean_temperature_K")]
+    #[serde(deserialize_with = "number_or_null")]
+    pub mean_temperature_k: f64,
 }
 
 /// Figures of an impact along the wall (table `tangential` of `summary.json`).

@@ -133,7 +133,7 @@ dimensions! {
     /// 1/s.
     StrainRate, "a strain rate", "40 1/s", si::Frequency, ["1/s"], ["1/ms" = 1e3, "1/min" = 0.016_666_666_666_666_666];
     /// K.
-    Temperature, "a temperature", "293 K", si::ThermodynamicTemperature, ["K"], [];
+    Temperature, "a temperature", "293 K", si::ThermodynamicTemperature, ["K", "degC"], [];
     /// J/(kg K).
     SpecificHeat, "a specific heat", "450 J/(kg K)", si::SpecificHeatCapacity, ["J/(kg K)"], ["kJ/(kg K)" = 1e3, "J/(g K)" = 1e3];
 }
@@ -262,6 +262,7 @@ fn uom_spelling(unit: &str) -> String {
         .replace("kg K", "kg · K");
     unit = match unit.as_str() {
         "deg" => "°".to_owned(),
+        "degC" => "°C".to_owned(),
         "1/s" => "Hz".to_owned(),
         _ => unit,
     };

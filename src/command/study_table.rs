@@ -270,7 +270,7 @@ fn table(rows: &[(&Case, Summary)], provenance: &str, path: &Path) -> Result<Vec
 }
 
 /// Keys and values of a case and of every figure of its run in the order of `summary.json` (`velocity_m_s` first), but for
-/// `particle`, `tangential`, `warnings` and the wall time; the status as one word, its reason after a colon.
+/// `particle`, `heating`, `tangential`, `warnings` and the wall time; the status as one word, its reason after a colon.
 fn row(case: &Case, summary: &Summary) -> serde_json::Result<Vec<(String, Cell)>> {
     let m = &case.material;
     let flow = FlowConstants::<InSi>::of(m.flow.as_ref());
@@ -299,9 +299,24 @@ fn row(case: &Case, summary: &Summary) -> serde_json::Result<Vec<(String, Cell)>
             .split_once("\":")
             .map(|(key, _)| key)
             // whose impact it is, the case's own columns say; a wall time is no figure of the impact
-            .filter(|key| !["particle", "tangential", "warnings", "wall_s", "status"].contains(key))
+            .filter(|key| {
+                ![
+                    "particle",
+                    "heating",
+                    "tangential",
+                    "warnings",
+                    "wall_s",
+                    "status",
+                ]
+                .contains(key)
+            })
     });
     row.extend(keys.map(|key| (key.to_owned(), cell(&value[key]))));
+    let heating = summary.heating.as_ref();
+    let ratio = heating.map_or(f64::NAN, |h| h.heat_ratio);
+    row.push(number("heat_ratio", ratio));
+    let hottest = heating.map_or(f64::NAN, |h| h.max_temperature_k);
+    row.push(number("max_temperature_K", hottest));
     let along = summary.tangential.as_ref();
     let ratio = along.and_then(|t| t.restitution).unwrap_or(f64::NAN);
     row.push(number("tangential_restitution", ratio));

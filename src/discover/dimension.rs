@@ -83,8 +83,8 @@ pub struct Named {
     pub factor: f64,
 }
 
-/// Units that names may end in for other reasons: `min` is a minimum, `in` what comes in.
-const AMBIGUOUS: [&str; 6] = ["d", "g", "h", "in", "min", "t"];
+/// Units that names may end in for other reasons (`min` is a minimum, `in` what comes in), or that no factor takes to SI units.
+const AMBIGUOUS: [&str; 7] = ["d", "degC", "g", "h", "in", "min", "t"];
 
 /// Every unit a name may end in, the longest first: how it ends, in SI units, dimension, factor.
 static ENDINGS: LazyLock<Vec<(String, &str, Dimension, f64)>> = LazyLock::new(|| {

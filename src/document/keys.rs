@@ -141,6 +141,7 @@ impl Kind {
         match self {
             Kind::Table(table) | Kind::Named(table) | Kind::OneOrMany(table) => vec![(None, table)],
             Kind::List(inner) => inner.tables(),
+            Kind::Either(one, other) => [one.tables(), other.tables()].concat(),
             Kind::Variants(tag, variants) => variants
                 .iter()
                 .map(|(name, table)| (Some((*tag, *name)), table))

@@ -7,7 +7,7 @@ use crate::unit::{
 use serde::{Deserialize, Deserializer};
 
 /// A constant of a flow stress. Everything that reads or writes one walks tables of these.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Constant {
     /// Key in files, e.g. `hardening_modulus`.
     pub key: &'static str,
@@ -19,14 +19,25 @@ pub struct Constant {
     pub dimension: Dimension,
     /// Allowed values.
     pub range: Range,
-    /// Whether a file may leave it out, which means 0: no effect.
-    pub may_be_absent: bool,
+    /// What it means that a file leaves it out.
+    pub absent: Absent,
     /// What it means, for the reference of keys.
     pub meaning: &'static str,
     /// A value as an input file spells it, single quotes for double ones.
     pub example: &'static str,
     /// What holds where a file does not name it.
     pub otherwise: &'static str,
+}
+
+/// What it means that a file leaves a constant out.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Absent {
+    /// The flow stress is none that takes it.
+    Other,
+    /// It is 0: no effect.
+    Nothing,
+    /// It has this value, SI, where the flow stress takes it.
+    Usual(f64),
 }
 
 /// Physical dimension of a constant.
@@ -53,6 +64,8 @@ pub enum Range {
     NotNegative,
     /// 0 < x <= 1.
     UpToOne,
+    /// 0 <= x <= 1.
+    Share,
     /// 0 < x < E.
     BelowYoungModulus,
 }
@@ -146,7 +159,7 @@ impl Dimension {
             Dimension::Stress => "_Pa",
             Dimension::Rate => "_1_s",
             Dimension::Temperature => "_K",
-            Dimension::SpecificHeat => "_J_kgK",
+            Dimension::SpecificHeat => "_J_kg_K",
         }
     }
 
@@ -188,6 +201,7 @@ impl Range {
             Range::Positive => x > 0.0,
             Range::NotNegative => x >= 0.0,
             Range::UpToOne => x > 0.0 && x <= 1.0,
+            Range::Share => (0.0..=1.0).contains(&x),
             Range::BelowYoungModulus => x > 0.0 && x < young_modulus,
         }
     }
@@ -199,6 +213,7 @@ impl Range {
             Range::Positive => "> 0",
             Range::NotNegative => "≥ 0",
             Range::UpToOne => "> 0, ≤ 1",
+            Range::Share => "0 to 1",
             Range::BelowYoungModulus => "> 0, < E",
         }
     }
@@ -210,6 +225,7 @@ impl Range {
             Range::Positive => "must be positive".to_owned(),
             Range::NotNegative => "must not be negative".to_owned(),
             Range::UpToOne => "must be positive and at most 1".to_owned(),
+            Range::Share => "must lie in [0, 1]".to_owned(),
             Range::BelowYoungModulus => format!(
                 "must be positive and below young_modulus ({}); check the unit of both",
                 engineering(young_modulus, "Pa", 4)

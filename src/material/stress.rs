@@ -10,7 +10,7 @@
 //! metric $C_p^{-1}$, from which $b_e = F C_p^{-1} F^T$ follows without storing F.
 
 use crate::lanes::Lanes;
-use crate::material::flow::{FlowStress, ROOT};
+use crate::material::flow::{CowperSymonds, FlowStress, IsothermalJohnsonCook, JohnsonCook, ROOT};
 use crate::space::{Space, Symmetric};
 use crate::tape::{Keep, keep_fields};
 
@@ -106,6 +106,14 @@ pub trait Constitutive<S: Space>: Copy + Send + Sync + 'static {
     fn trial(&self, kinematics: &Kinematics<S>, state: &Self::State) -> Response<S::Symmetric>;
     /// Accumulated equivalent plastic strain.
     fn plastic_strain(state: &Self::State) -> Lanes;
+    /// Temperature, K; none of matter that knows none.
+    fn temperature(&self, _: &Self::State) -> Option<Lanes> {
+        None
+    }
+    /// Share of the plastic work that becomes heat.
+    fn heat_share(&self) -> f64 {
+        0.0
+    }
 }
 
 /// Elastic body: no state, no memory, no plastic branch.
@@ -177,6 +185,10 @@ keep_fields!(impl [T: Keep, M: Keep] J2State<T, M>: metric, strain, memory);
 
 // a flow stress that remembers nothing costs no memory
 const _: () = assert!(size_of::<J2State<[Lanes; 4], ()>>() == size_of::<[Lanes; 5]>());
+// rates take none, a temperature takes one number
+const _: () = assert!(size_of::<<IsothermalJohnsonCook as FlowStress>::Memory>() == 0);
+const _: () = assert!(size_of::<<CowperSymonds as FlowStress>::Memory>() == 0);
+const _: () = assert!(size_of::<<JohnsonCook as FlowStress>::Memory>() == size_of::<Lanes>());
 
 impl<S: Space, F: FlowStress> Constitutive<S> for J2<F> {
     type State = J2State<S::Symmetric, F::Memory>;
@@ -215,6 +227,12 @@ impl<S: Space, F: FlowStress> Constitutive<S> for J2<F> {
     }
     fn plastic_strain(state: &Self::State) -> Lanes {
         state.strain
+    }
+    fn temperature(&self, state: &Self::State) -> Option<Lanes> {
+        self.flow.temperature(&state.memory)
+    }
+    fn heat_share(&self) -> f64 {
+        self.flow.heat_share()
     }
 }
 

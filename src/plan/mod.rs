@@ -4,7 +4,7 @@
 //! the whole run depends on (E/Y, rho V^2/E, nu) alone.
 
 use crate::case::Case;
-use crate::material::flow::YIELD_STRENGTH;
+use crate::material::flow::{Past, YIELD_STRENGTH};
 use crate::material::stress::Moduli;
 use crate::material::{Flow, Material, YIELD_PRESSURE_RATIO};
 use crate::scheme::Scheme;
@@ -417,7 +417,7 @@ fn effects(case: &Case, velocity: f64) -> (Vec<Effect>, bool) {
             reason: why,
         },
     ];
-    list.extend(flow_effects(case.material.flow, plastic));
+    list.extend(flow_effects(case, velocity, plastic));
     list.extend([
         Effect {
             name: "large deformation",
@@ -437,7 +437,8 @@ fn effects(case: &Case, velocity: f64) -> (Vec<Effect>, bool) {
 }
 
 /// Effects on the flow stress besides yielding, of every kind there is: on where the material has their constants.
-fn flow_effects(flow: Option<Flow>, plastic: bool) -> Vec<Effect> {
+fn flow_effects(case: &Case, velocity: f64, plastic: bool) -> Vec<Effect> {
+    let flow = case.material.flow;
     let own = flow.map_or_else(Vec::new, |flow| flow.constants());
     let mut list: Vec<Effect> = Vec::new();
     for constant in Flow::all_constants() {
@@ -456,16 +457,49 @@ fn flow_effects(flow: Option<Flow>, plastic: bool) -> Vec<Effect> {
                 text.trim_end().to_owned()
             })
             .collect();
+        let size = flow
+            .filter(|_| plastic)
+            .and_then(|flow| size_of_effect(flow, name, case, velocity));
         list.push(Effect {
             name,
             on: plastic && !given.is_empty(),
-            reason: match given.is_empty() {
-                true => format!("no {} given", constant.name()),
-                false => given.join(", "),
+            reason: match (given.is_empty(), size) {
+                (true, _) => format!("no {} given", constant.name()),
+                (false, None) => given.join(", "),
+                (false, Some(size)) => format!("{}: {size}", given.join(", ")),
             },
         });
     }
     list
+}
+
+/// What leaving out the rate or the heating would change of the flow stress, in words; nothing for other effects. The rate is
+/// V/R, the strain that of the whole body were it flattened by the work of its motion at that stress, and the heat that of this work.
+fn size_of_effect(flow: Flow, effect: &str, case: &Case, velocity: f64) -> Option<String> {
+    let [_, flattening] = case.material.flattening_limits(velocity);
+    let rate = velocity / case.radius;
+    let still = Past {
+        strain: 0.5 * flattening.min(1.0),
+        ..Past::default()
+    };
+    let flowing = Past { rate, ..still };
+    let work = 0.5 * velocity * velocity;
+    let warm = Past { work, ..flowing };
+    let [(at_rest, _), (at_rate, cold), (heated, hot)] =
+        [still, flowing, warm].map(|past| flow.after(past));
+    match effect {
+        "rate" => Some(format!(
+            "at V/R = {} 1/s the flow stress is {} times that at rest",
+            significant(rate, 2),
+            significant(at_rate / at_rest, 3)
+        )),
+        "heating" => Some(format!(
+            "the work of the impact warms the whole body by {} K, which leaves {} % of the flow stress",
+            significant(hot? - cold?, 2),
+            significant(100.0 * heated / at_rate, 3)
+        )),
+        _ => None,
+    }
 }
 
 /// Period of the fundamental (oblate-prolate, l = 2) vibration of a sphere, R/c0.

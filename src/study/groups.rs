@@ -2,7 +2,7 @@
 //! a study's results.
 
 use crate::case::Case;
-use crate::material::constant::Dimension;
+use crate::material::constant::{Absent, Dimension};
 use crate::material::flow::YIELD_STRENGTH;
 use crate::material::{Flow, Material, ReferenceUnits, YIELD_PRESSURE_RATIO};
 use std::path::PathBuf;
@@ -164,16 +164,30 @@ impl Groups {
         ];
         let own = self.flow.map_or_else(Vec::new, |flow| flow.constants());
         for constant in Flow::all_constants() {
-            let name = match constant.dimension {
+            let found = own.iter().find(|(own, _)| *own == constant);
+            let found = found.map(|(_, value)| *value);
+            let absent = self.flow.is_some() && constant.absent == Absent::Nothing;
+            let (name, value) = match constant.dimension {
                 _ if constant == YIELD_STRENGTH => continue,
                 // as the file says them
                 Dimension::Number | Dimension::Temperature => continue,
-                Dimension::Stress => format!("{}_over_young", constant.key.replace("_modulus", "")),
-                Dimension::Rate | Dimension::SpecificHeat => format!("{}_reference", constant.key),
+                Dimension::Stress => (
+                    format!("{}_over_young", constant.key.replace("_modulus", "")),
+                    found.or(absent.then_some(0.0)),
+                ),
+                Dimension::Rate => (
+                    format!("V_over_R_{}", constant.key),
+                    found.map(|rate| case.velocities[0] / rate),
+                ),
+                Dimension::SpecificHeat => (
+                    "heat_to_melt_over_yield".to_owned(),
+                    self.flow
+                        .and_then(Flow::heat_to_melt)
+                        .zip(strength)
+                        .map(|(heat, strength)| heat / strength),
+                ),
             };
-            let found = own.iter().find(|(own, _)| *own == constant);
-            let absent = (self.flow.is_some() && constant.may_be_absent).then_some(0.0);
-            all.push((name, or_nan(found.map(|(_, value)| *value).or(absent))));
+            all.push((name, or_nan(value)));
         }
         all
     }

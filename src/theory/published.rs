@@ -2,7 +2,7 @@
 
 use crate::contact::NormalLaw;
 use crate::material::Material;
-use crate::material::constant::Constant;
+use crate::material::constant::{Absent, Constant};
 use crate::material::flow::YIELD_STRENGTH;
 use crate::unit::engineering;
 
@@ -100,7 +100,12 @@ impl Publication {
     pub fn leaves_out(&self, material: &Material) -> Vec<(Constant, f64)> {
         let constants = material.flow.filter(|_| self.needs_yield());
         let unknown = |(constant, value): &(Constant, f64)| {
-            let acts = !constant.may_be_absent || *value != 0.0;
+            let acts = match constant.absent {
+                Absent::Other => true,
+                Absent::Nothing => *value != 0.0,
+                // it says how another one acts
+                Absent::Usual(_) => false,
+            };
             acts && !self.flow.contains(constant)
         };
         let constants = constants.map(|flow| flow.constants()).unwrap_or_default();

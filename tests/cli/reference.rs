@@ -8,7 +8,7 @@ use impactlaw::cli::Cli;
 use impactlaw::command::help::{self, markdown};
 use impactlaw::command::schema::FILES;
 use impactlaw::cost::accuracy::Line;
-use impactlaw::curve::{Summary, Tangential};
+use impactlaw::curve::{Heating, Summary, Tangential};
 use impactlaw::discover::file::EquationsFile;
 use impactlaw::document::Document;
 use impactlaw::document::reference::{Section as Place, sections, sentence};
@@ -240,9 +240,16 @@ fn columns() -> BTreeMap<String, BTreeSet<String>> {
 }
 
 /// Keys of an impact's summary that a normal impact without incident lacks.
-const MAY_BE_ABSENT: [&str; 2] = ["tangential", "warnings"];
+const MAY_BE_ABSENT: [&str; 3] = ["heating", "tangential", "warnings"];
 /// Keys of an impact's summary that are no figures, and not in `results.csv`; in the order of the alphabet.
-const NO_FIGURES: [&str; 5] = ["particle", "sha256", "tangential", "wall_s", "warnings"];
+const NO_FIGURES: [&str; 6] = [
+    "heating",
+    "particle",
+    "sha256",
+    "tangential",
+    "wall_s",
+    "warnings",
+];
 
 /// Heading under which the columns of a file stand.
 fn heading(file: &Path) -> String {
@@ -417,7 +424,17 @@ fn every_column_of_every_file_has_its_line_and_no_other() {
         angular_velocity_rad_s: 1.0,
         impulse_ratio: 1.0,
     });
+    summary.heating = Some(Heating {
+        heat_ratio: 0.8,
+        stored_work_ratio: 0.1,
+        max_temperature_k: 400.0,
+        mean_temperature_k: 300.0,
+    });
     let value = serde_json::to_value(&summary).unwrap();
+    assert_eq!(
+        reference["heating of summary.json"],
+        keys(&value["heating"].to_string())
+    );
     assert_eq!(
         reference["tangential of summary.json"],
         keys(&value["tangential"].to_string())
@@ -427,6 +444,7 @@ fn every_column_of_every_file_has_its_line_and_no_other() {
     particle.extend(Flow::all_constants().iter().map(InSi::key));
     assert_eq!(reference["particle of summary.json"], particle);
     let elsewhere = [
+        "heating of summary.json",
         "particle of summary.json",
         "tangential of summary.json",
         "NAME.csv of target table",

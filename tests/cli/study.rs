@@ -41,8 +41,11 @@ fn equal_groups_run_once_and_a_second_call_repeats_nothing() {
     assert!(rows[0].starts_with(
         "name,density_kg_m3,young_modulus_Pa,yield_strength_Pa,hardening_modulus_Pa,\
          hardening_coefficient_Pa,hardening_exponent,saturation_stress_Pa,saturation_exponent,\
+         rate_sensitivity,reference_rate_1_s,softening_exponent,melting_temperature_K,room_temperature_K,\
+         specific_heat_J_kg_K,taylor_quinney_coefficient,doubling_rate_1_s,rate_exponent,\
          poisson_ratio,radius_m,angle_deg,friction,tolerance,young_over_yield,rho_V2_over_E,rho_V2_over_Y,V_over_Vy,\
-         hardening_over_young,hardening_coefficient_over_young,saturation_stress_over_young,velocity_m_s,restitution,max_force_N"
+         hardening_over_young,hardening_coefficient_over_young,saturation_stress_over_young,V_over_R_reference_rate,\
+         heat_to_melt_over_yield,V_over_R_doubling_rate,velocity_m_s,restitution,max_force_N"
     ));
     assert!(rows[0].ends_with("predicted_s,status"));
     assert_eq!(rows.len(), 5);

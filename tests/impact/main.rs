@@ -2,6 +2,7 @@
 
 mod cost_thesis;
 mod elastic;
+mod flow;
 mod hard;
 mod large;
 #[path = "../support/maw_barber_fawcett.rs"]

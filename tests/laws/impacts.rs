@@ -72,6 +72,7 @@ pub fn summary(velocity: f64, figures: [f64; 5]) -> Summary {
         points: 0,
         steps: 0,
         wall_s: 0.0,
+        heating: None,
         tangential: None,
         particle: None,
         status: Status::Ok,

@@ -22,6 +22,17 @@ pub struct PointView {
     pub von_mises: f64,
 }
 
+/// How warm points are.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Warmth {
+    /// Share of the plastic work that became heat.
+    pub share: f64,
+    /// Highest temperature, K.
+    pub hottest: f64,
+    /// Volume mean, K.
+    pub mean: f64,
+}
+
 impl<S: Space, const N: usize> Keep for Points<S, N> {
     fn save(&self, tape: &mut Tape) {
         let Self {
@@ -86,6 +97,22 @@ impl<S: Space, const N: usize> Points<S, N> {
         let of_block =
             |(block, volume): (usize, &Lanes)| (self.matter.plastic_strain(block) * *volume).sum();
         self.volumes.iter().enumerate().map(of_block).sum()
+    }
+
+    /// Temperatures of matter that knows them, and the share of its plastic work that became heat.
+    pub fn warmth(&self) -> Option<Warmth> {
+        let (mut hottest, mut sum) = (0.0f64, 0.0);
+        for (block, volume) in self.volumes.iter().enumerate() {
+            let temperature = self.matter.temperature(block)?;
+            // padding is as hot as the point it copies
+            hottest = temperature.array().into_iter().fold(hottest, f64::max);
+            sum += (temperature * *volume).sum();
+        }
+        Some(Warmth {
+            share: self.matter.heat_share(),
+            hottest,
+            mean: sum / self.volume(),
+        })
     }
 
     /// Every material point at displacements `u`, in a fixed order.

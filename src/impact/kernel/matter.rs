@@ -29,6 +29,10 @@ pub trait Matter<S: Space>: Send + Sync {
     fn trial(&self, kinematics: &Kinematics<S>, block: usize) -> Response<S::Symmetric>;
     /// Accumulated equivalent plastic strain of a block.
     fn plastic_strain(&self, block: usize) -> Lanes;
+    /// Temperature of a block, K; none of matter that knows none.
+    fn temperature(&self, block: usize) -> Option<Lanes>;
+    /// Share of the plastic work that becomes heat.
+    fn heat_share(&self) -> f64;
     /// Write the states.
     fn save(&self, tape: &mut Tape);
     /// Take back what [`Matter::save`] wrote; `None` when the tape does not fit.
@@ -101,6 +105,14 @@ impl<S: Space, M: Constitutive<S>> Matter<S> for Made<M, M::State> {
 
     fn plastic_strain(&self, block: usize) -> Lanes {
         M::plastic_strain(&self.states[block])
+    }
+
+    fn temperature(&self, block: usize) -> Option<Lanes> {
+        self.material.temperature(&self.states[block])
+    }
+
+    fn heat_share(&self) -> f64 {
+        self.material.heat_share()
     }
 
     fn save(&self, tape: &mut Tape) {

@@ -13,7 +13,7 @@ mod part;
 mod passes;
 mod shock;
 
-pub use inspect::PointView;
+pub use inspect::{PointView, Warmth};
 pub use matter::{Matter, made_of};
 use part::Level;
 pub use part::Part;

@@ -187,6 +187,7 @@ where
             },
             has_poles: !self.erosion.is_on() || [0, 2].into_iter().all(|pole| self.has(pole)),
             plastic_strain: self.model.points.plastic_strain_volume() / self.mass,
+            warmth: self.model.points.warmth(),
             points: self.model.points.count(),
             steps: (self.stepped as f64 / self.blocks as f64).round() as u64,
             seconds_before: 0.0,

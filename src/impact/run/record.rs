@@ -1,8 +1,10 @@
 //! Record of a run: what is kept at every output, and how it becomes a curve and its figures in SI units.
 
 use crate::curve::{
-    Curve, Impact, MapPoint, Part, Particle, ParticleMap, Sample, Status, Summary, Tangential,
+    Curve, Heating, Impact, MapPoint, Part, Particle, ParticleMap, Sample, Status, Summary,
+    Tangential,
 };
+use crate::impact::kernel::Warmth;
 use crate::material::{Material, ReferenceUnits};
 use crate::plan::Plan;
 use crate::tape::keep_fields;
@@ -135,6 +137,8 @@ pub struct Record {
     pub has_poles: bool,
     /// Volume mean of the equivalent plastic strain.
     pub plastic_strain: f64,
+    /// How warm it became; none of matter that knows no temperature.
+    pub warmth: Option<Warmth>,
     /// Material points.
     pub points: usize,
     /// Steps.
@@ -365,6 +369,15 @@ impl Record {
             points: self.points,
             steps: self.steps,
             wall_s,
+            heating: self.warmth.map(|warmth| {
+                let work = last.plastic / incident;
+                Heating {
+                    heat_ratio: warmth.share * work,
+                    stored_work_ratio: (1.0 - warmth.share) * work,
+                    max_temperature_k: warmth.hottest,
+                    mean_temperature_k: warmth.mean,
+                }
+            }),
             tangential: self.sliding.map(|s| s.figures(radius, units.speed())),
             particle: Some(Particle::of(material, radius)),
             warnings: self.warnings(plan),

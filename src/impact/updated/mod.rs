@@ -9,6 +9,7 @@ pub(crate) mod deformation;
 use self::deformation::{Deformation, gradient, pulled_back};
 use crate::curve::Status;
 use crate::impact::grid::section::Section;
+use crate::impact::kernel::Warmth;
 use crate::impact::points::lattice;
 use crate::impact::run::OUTPUTS;
 use crate::impact::run::record::{Frame, Record, SectionView, Snapshot};
@@ -370,6 +371,18 @@ impl<'a, M: Constitutive<Axisymmetric>, const P: usize, const N: usize> Updated<
         }
     }
 
+    /// Temperatures of matter that knows them.
+    fn warmth(&self) -> Option<Warmth> {
+        let temperature = |p: &Mover<M::State>| self.material.temperature(&p.state);
+        let hottest = |p: &Mover<M::State>| temperature(p).map_or(0.0, |t| t.array()[0]);
+        self.movers.first().and_then(temperature)?;
+        Some(Warmth {
+            share: self.material.heat_share(),
+            hottest: self.movers.iter().map(hottest).fold(0.0, f64::max),
+            mean: self.mean(hottest),
+        })
+    }
+
     fn into_record(
         self,
         frames: Vec<Frame>,
@@ -397,6 +410,7 @@ impl<'a, M: Constitutive<Axisymmetric>, const P: usize, const N: usize> Updated<
             knocking: 0.0,
             has_poles: true,
             plastic_strain: self.mean(|p| M::plastic_strain(&p.state).array()[0]),
+            warmth: self.warmth(),
             points: self.movers.len(),
             steps: self.step,
             seconds_before: 0.0,

@@ -2,7 +2,7 @@
 
 use super::{FlowStress, YIELD_STRENGTH, flow_stress};
 use crate::lanes::Lanes;
-use crate::material::constant::{Constant, Dimension, Range};
+use crate::material::constant::{Absent, Constant, Dimension, Range};
 
 /// Linear hardening modulus H.
 pub const HARDENING_MODULUS: Constant = Constant {
@@ -11,7 +11,7 @@ pub const HARDENING_MODULUS: Constant = Constant {
     effect: "hardening",
     dimension: Dimension::Stress,
     range: Range::NotNegative,
-    may_be_absent: true,
+    absent: Absent::Nothing,
     meaning: "slope of the flow stress over the equivalent plastic strain; needs a yield strength",
     example: "'500 MPa'",
     otherwise: "0",

@@ -3,19 +3,23 @@
 //! To add one, write its file (constants, stress, slope, and what it remembers) and name it in the list below. Case and scene
 //! files, law files, plans, reports, studies and exports walk its constants and need no change.
 
+mod cowper_symonds;
 mod declare;
+mod johnson_cook;
 mod linear_hardening;
 mod perfectly_plastic;
 mod power_hardening;
+mod rate;
 mod voce_hardening;
 mod written;
 
 pub(super) use declare::flow_stress;
 use declare::flow_stresses;
 pub use linear_hardening::HARDENING_MODULUS;
+use power_hardening::{HARDENING_COEFFICIENT, HARDENING_EXPONENT};
 pub use written::{FlowConstants, InSi, InText, Spelling, WithFlow};
 
-use super::constant::{Constant, Dimension, Range};
+use super::constant::{Absent, Constant, Dimension, Range};
 use super::reference::ReferenceUnits;
 use crate::lanes::Lanes;
 use crate::tape::Keep;
@@ -26,6 +30,9 @@ flow_stresses! {
     linear_hardening::LinearHardening,
     power_hardening::PowerHardening,
     voce_hardening::VoceHardening,
+    johnson_cook::IsothermalJohnsonCook,
+    johnson_cook::JohnsonCook,
+    cowper_symonds::CowperSymonds,
 }
 
 /// Initial yield strength Y, the constant that every flow stress has.
@@ -35,7 +42,7 @@ pub const YIELD_STRENGTH: Constant = Constant {
     effect: "plasticity",
     dimension: Dimension::Stress,
     range: Range::BelowYoungModulus,
-    may_be_absent: false,
+    absent: Absent::Other,
     meaning: "yield strength Y (von Mises)",
     example: "'97.59 MPa'",
     otherwise: "none: elastic",
@@ -61,6 +68,26 @@ pub trait FlowStress: Constants + Send + Sync + 'static {
     /// What a point remembers after a step that took the plastic work `work` per reference volume.
     #[inline(always)]
     fn remember(&self, _increment: Lanes, _dt: f64, _work: Lanes, _memory: &mut Self::Memory) {}
+
+    /// Share of the plastic work that becomes heat.
+    fn heat_share(&self) -> f64 {
+        0.0
+    }
+
+    /// Temperature of what a point remembers, K; none of a flow stress that knows none.
+    fn temperature(&self, _memory: &Self::Memory) -> Option<Lanes> {
+        None
+    }
+
+    /// Heat per mass from where a body begins to where it has no strength; none of a flow stress that knows no temperature.
+    fn heat_to_melt(&self) -> Option<f64> {
+        None
+    }
+
+    /// A constant that another one contradicts, with what is allowed beside that one.
+    fn contradiction(&self) -> Option<(Constant, String)> {
+        None
+    }
 
     /// Length $\gamma$ of the radial return of a deviator of size `norm`: the root of
     /// $|s| - k \gamma - \sqrt{2/3}\ \sigma_y(\varepsilon + \Delta, \Delta)$ with $\Delta = \sqrt{2/3}\ \gamma$ and k =
@@ -129,17 +156,51 @@ pub struct Kind {
     of: fn(&[f64]) -> Flow,
 }
 
-/// Flow stress at a strain, without rate or history.
-struct AtRest {
-    strain: f64,
+/// What a point has gone through, SI.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Past {
+    /// Equivalent plastic strain.
+    pub strain: f64,
+    /// Its present rate, 1/s.
+    pub rate: f64,
+    /// Plastic work per mass, J/kg.
+    pub work: f64,
 }
 
-impl FlowVisitor for AtRest {
-    type Output = f64;
-    fn visit<F: FlowStress>(self, flow: F) -> f64 {
-        let none = Lanes::default();
-        let stress = flow.stress(Lanes::splat(self.strain), none, 0.0, &F::Memory::default());
-        stress.min()
+/// Flow stress after a past, and the temperature that goes with it.
+struct After(Past);
+
+impl FlowVisitor for After {
+    type Output = (f64, Option<f64>);
+    fn visit<F: FlowStress>(self, flow: F) -> Self::Output {
+        let Past { strain, rate, work } = self.0;
+        let mut memory = F::Memory::default();
+        let still = Lanes::default();
+        // of a density of one the work per volume is that per mass
+        flow.remember(still, 0.0, Lanes::splat(work), &mut memory);
+        let stress = flow.stress(Lanes::splat(strain), Lanes::splat(rate), 1.0, &memory);
+        let temperature = flow.temperature(&memory);
+        (stress.min(), temperature.map(Lanes::min))
+    }
+}
+
+/// [`FlowStress::contradiction`].
+struct Contradiction;
+
+impl FlowVisitor for Contradiction {
+    type Output = Option<(Constant, String)>;
+    fn visit<F: FlowStress>(self, flow: F) -> Self::Output {
+        flow.contradiction()
+    }
+}
+
+/// [`FlowStress::heat_to_melt`].
+struct HeatToMelt;
+
+impl FlowVisitor for HeatToMelt {
+    type Output = Option<f64>;
+    fn visit<F: FlowStress>(self, flow: F) -> Self::Output {
+        flow.heat_to_melt()
     }
 }
 
@@ -153,7 +214,29 @@ impl Flow {
     /// Flow stress of a virgin point at an equivalent plastic strain, at rest.
     #[must_use]
     pub fn at_rest(self, strain: f64) -> f64 {
-        self.visit(AtRest { strain })
+        let past = Past {
+            strain,
+            ..Past::default()
+        };
+        self.after(past).0
+    }
+
+    /// Flow stress of a point after a past, Pa, and its temperature, K, where it knows one.
+    #[must_use]
+    pub fn after(self, past: Past) -> (f64, Option<f64>) {
+        self.visit(After(past))
+    }
+
+    /// A constant that another one contradicts, with what is allowed beside that one.
+    #[must_use]
+    pub fn contradiction(self) -> Option<(Constant, String)> {
+        self.visit(Contradiction)
+    }
+
+    /// Heat per mass from where a body begins to where it has no strength, J/kg; none of a kind that knows no temperature.
+    #[must_use]
+    pub fn heat_to_melt(self) -> Option<f64> {
+        self.visit(HeatToMelt)
     }
 
     /// Name in running text.

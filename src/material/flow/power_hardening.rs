@@ -9,7 +9,7 @@
 
 use super::{FlowStress, ROOT, YIELD_STRENGTH, flow_stress};
 use crate::lanes::Lanes;
-use crate::material::constant::{Constant, Dimension, Range};
+use crate::material::constant::{Absent, Constant, Dimension, Range};
 
 /// Coefficient B of power-law hardening.
 pub const HARDENING_COEFFICIENT: Constant = Constant {
@@ -18,7 +18,7 @@ pub const HARDENING_COEFFICIENT: Constant = Constant {
     effect: "hardening",
     dimension: Dimension::Stress,
     range: Range::NotNegative,
-    may_be_absent: false,
+    absent: Absent::Other,
     meaning: "B of the flow stress Y + B ε_p^n; needs a yield strength and an exponent",
     example: "'292 MPa'",
     otherwise: "none: no power-law hardening",
@@ -31,7 +31,7 @@ pub const HARDENING_EXPONENT: Constant = Constant {
     effect: "hardening",
     dimension: Dimension::Number,
     range: Range::UpToOne,
-    may_be_absent: false,
+    absent: Absent::Other,
     meaning: "n of the flow stress Y + B ε_p^n",
     example: "0.31",
     otherwise: "none: no power-law hardening",
@@ -47,6 +47,20 @@ flow_stress! {
         /// Exponent n.
         exponent: HARDENING_EXPONENT,
     }
+}
+
+/// $Y + B \varepsilon^n$ and its slope.
+#[inline(always)]
+pub(super) fn power(strength: f64, coefficient: f64, exponent: f64, strain: f64) -> [f64; 2] {
+    let strain = strain.max(0.0);
+    let rise = coefficient * strain.powf(exponent);
+    let slope = match rise > 0.0 {
+        true => exponent * rise / strain,
+        // at no strain it is infinite, without a coefficient none
+        false if coefficient > 0.0 => f64::INFINITY,
+        false => 0.0,
+    };
+    [strength + rise, slope]
 }
 
 /// Newton steps of a return. The start is within a factor of two of the root (two branches of which the larger one counts), and

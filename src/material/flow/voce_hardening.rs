@@ -2,7 +2,7 @@
 
 use super::{FlowStress, ROOT, YIELD_STRENGTH, flow_stress};
 use crate::lanes::Lanes;
-use crate::material::constant::{Constant, Dimension, Range};
+use crate::material::constant::{Absent, Constant, Dimension, Range};
 
 /// Stress Q that hardening adds in the end.
 pub const SATURATION_STRESS: Constant = Constant {
@@ -11,7 +11,7 @@ pub const SATURATION_STRESS: Constant = Constant {
     effect: "hardening",
     dimension: Dimension::Stress,
     range: Range::NotNegative,
-    may_be_absent: false,
+    absent: Absent::Other,
     meaning: "Q of the flow stress Y + Q (1 - exp(-b ε_p)); needs a yield strength and a saturation exponent",
     example: "'120 MPa'",
     otherwise: "none: no saturating hardening",
@@ -24,7 +24,7 @@ pub const SATURATION_EXPONENT: Constant = Constant {
     effect: "hardening",
     dimension: Dimension::Number,
     range: Range::Positive,
-    may_be_absent: false,
+    absent: Absent::Other,
     meaning: "b of the flow stress Y + Q (1 - exp(-b ε_p)): strain of saturation is 1/b",
     example: "15",
     otherwise: "none: no saturating hardening",

@@ -4,7 +4,7 @@ use super::{Flow, YIELD_STRENGTH};
 use crate::Result;
 use crate::document::Document;
 use crate::document::keys::{self, Key, Kind, Table};
-use crate::material::constant::Constant;
+use crate::material::constant::{Absent, Constant};
 use serde::Deserialize;
 use serde::de::value::{MapAccessDeserializer, StrDeserializer};
 use serde::de::{DeserializeSeed, Deserializer, Error, MapAccess, Visitor};
@@ -116,7 +116,7 @@ impl<W: Spelling<Value = f64>> FlowConstants<W> {
         let value = |constant: Constant| {
             let found = own.iter().find(|(c, _)| *c == constant);
             let value = found.map(|(_, value)| *value);
-            let absent = constant.may_be_absent.then_some(0.0);
+            let absent = (constant.absent == Absent::Nothing).then_some(0.0);
             value.or(absent).map(|value| (constant, value))
         };
         FlowConstants {
@@ -171,18 +171,28 @@ impl<W: Spelling<Value = f64>> FlowConstants<W> {
                 format!("needs a `{strength}` beside it: without one the body is elastic");
             return Err(Refused(Box::new(*first), allowed));
         }
-        let acts = |(constant, value): &&(Constant, f64)| !constant.may_be_absent || *value != 0.0;
+        let acts = |(constant, value): &&(Constant, f64)| {
+            constant.absent != Absent::Nothing || *value != 0.0
+        };
         let acting: Vec<Constant> = self.values.iter().filter(acts).map(|(c, _)| *c).collect();
         let takes = |kind: &&super::Kind| acting.iter().all(|c| kind.constants.contains(c));
         let lacking = |kind: &super::Kind| {
-            let absent = |c: &&Constant| !c.may_be_absent && get(c).is_none();
+            let absent = |c: &&Constant| c.absent == Absent::Other && get(c).is_none();
             kind.constants.iter().find(absent).copied()
         };
         let fitting: Vec<&super::Kind> = Flow::KINDS.iter().filter(takes).collect();
         if let Some(kind) = fitting.iter().find(|kind| lacking(kind).is_none()) {
             let values = kind.constants.iter();
-            let values: Vec<f64> = values.map(|c| get(c).unwrap_or_default()).collect();
-            return Ok(Some((kind.of)(&values)));
+            let usual = |c: &Constant| match c.absent {
+                Absent::Usual(value) => value,
+                Absent::Other | Absent::Nothing => 0.0,
+            };
+            let values: Vec<f64> = values.map(|c| get(c).unwrap_or(usual(c))).collect();
+            let flow = (kind.of)(&values);
+            return match flow.contradiction() {
+                None => Ok(Some(flow)),
+                Some((constant, allowed)) => Err(Refused(Box::new(constant), allowed)),
+            };
         }
         let last = acting.last().copied().unwrap_or(*first);
         let allowed = match fitting.first().and_then(|kind| lacking(kind)) {
