@@ -15,6 +15,7 @@ use std::hint::black_box;
 
 fn grid(degree: usize) -> Grid {
     Grid {
+        shape: impactlaw::shape::Shape::Sphere,
         degree,
         points_per_direction: degree.max(2),
         fine: 0.012,

@@ -1,14 +1,16 @@
 //! Case file: what the user asks for, checked and in SI units.
 
 use crate::document::Document;
-use crate::document::keys::{Kind, Value as _, key, keys, table};
+use crate::document::keys::{Kind, Value as _, key, keys, names, table};
 use crate::document::range;
 use crate::material::flow::{FlowConstants, InText, WithFlow};
 use crate::material::{Flow, Material};
+use crate::shape::Shape;
 use crate::unit::{self, Angle, Density, Length, Pressure, Quantity, Velocity};
 use crate::{Error, Result};
 use named::Given;
 use serde::Deserialize;
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 pub mod named;
@@ -23,6 +25,8 @@ pub struct Case {
     pub path: PathBuf,
     /// SHA-256 of the file's text, hexadecimal: provenance of everything made from it.
     pub hash: String,
+    /// Particle shape, lengths in m.
+    pub shape: Shape,
     /// Particle radius R, m.
     pub radius: f64,
     /// Particle material.
@@ -69,13 +73,36 @@ keys! {
 #[serde(deny_unknown_fields)]
 struct ParticleTable {
     radius: Quantity<Length>,
+    #[serde(default)]
+    shape: ShapeName,
+    length: Option<Quantity<Length>>,
 }
 
 keys! {
     ParticleTable {
-        radius: key("radius of the sphere", "> 0", "'250 um'"),
+        radius: key("radius of the sphere or the cylinder", "> 0", "'250 um'"),
+        shape: key("its shape; a cylinder flies along its axis against a frictionless wall and is run by `impact` alone", "", "'cylinder'").or("sphere"),
+        length: key("length of a cylinder", "> 0", "'25.4 mm'").or("none of a sphere"),
     }
 }
+
+#[derive(Debug, Clone, Copy, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum ShapeName {
+    #[default]
+    Sphere,
+    Cylinder,
+}
+
+names! {
+    ShapeName {
+        Sphere as "sphere",
+        Cylinder as "cylinder",
+    }
+}
+
+/// Length of a cylinder over its radius that is run.
+const SLENDER: RangeInclusive<f64> = 0.2..=50.0;
 
 /// Table `[material]`, in case and scene files alike.
 type MaterialTable = WithFlow<ElasticTable, InText>;
@@ -203,6 +230,7 @@ impl Case {
             path: document.path().to_owned(),
             hash: document.hash(),
             radius: document.within("particle.radius", file.particle.radius.si())?,
+            shape: file.particle.shape(document)?,
             material: file.material.check(document)?,
             velocities: file.impact.check(document)?,
             angle: file.impact.angle(document)?,
@@ -210,6 +238,7 @@ impl Case {
             tolerance: document.within("accuracy.tolerance", file.accuracy.tolerance)?,
             bed: file.bed.map(|bed| bed.check(document)).transpose()?,
         };
+        case.check_cylinder(document)?;
         slips::check(&case, &written, document, &file.unusual)?;
         Ok(case)
     }
@@ -277,6 +306,7 @@ impl Case {
             name: name.to_owned(),
             path: PathBuf::from(name),
             hash: "0".repeat(64),
+            shape: Shape::Sphere,
             radius,
             material,
             velocities,
@@ -285,6 +315,48 @@ impl Case {
             tolerance,
             bed: None,
         })
+    }
+
+    /// That nothing is asked of a cylinder that is done for spheres alone.
+    fn check_cylinder(&self, document: &Document) -> Result<()> {
+        if self.shape == Shape::Sphere {
+            return Ok(());
+        }
+        let rejected = |key, what: &str| {
+            let allowed = format!(
+                "must be {what}: a cylinder flies along its axis against a frictionless wall"
+            );
+            Err(document.reject(key, allowed))
+        };
+        if self.angle > 0.0 {
+            return rejected("impact.angle", "0");
+        }
+        if self.friction > 0.0 {
+            return rejected("wall.friction", "0");
+        }
+        if self.bed.is_some() {
+            let allowed = "must be left out: beds are made of spheres";
+            return Err(document.reject("bed.scene", allowed));
+        }
+        Ok(())
+    }
+
+    /// That the particle is a sphere, as `what` needs it.
+    ///
+    /// # Errors
+    /// [`Error::Refused`] naming the shape.
+    pub fn of_a_sphere(&self, what: &str) -> Result<()> {
+        match self.shape {
+            Shape::Sphere => Ok(()),
+            shape => Err(Error::Refused {
+                what: format!("{}: `particle.shape`", self.path.display()),
+                found: format!("\"{}\"", shape.name()),
+                allowed: format!(
+                    "{what} needs a sphere; `impactlaw impact` runs a {}",
+                    shape.name()
+                ),
+            }),
+        }
     }
 
     /// The case with the speeds of `--velocity`, when any are given.
@@ -315,6 +387,33 @@ impl Case {
         velocities.sort_by(f64::total_cmp);
         self.velocities = velocities;
         Ok(self)
+    }
+}
+
+impl ParticleTable {
+    /// The shape, with a length of its own where it has one.
+    fn shape(&self, document: &Document) -> Result<Shape> {
+        match (self.shape, self.length) {
+            (ShapeName::Sphere, None) => Ok(Shape::Sphere),
+            (ShapeName::Sphere, Some(_)) => {
+                let allowed = "must be left out: a sphere has none; a cylinder is told by `shape = \"cylinder\"`";
+                Err(document.reject("particle.length", allowed))
+            }
+            (ShapeName::Cylinder, None) => {
+                Err(document.reject("particle.shape", "needs a `length` beside it"))
+            }
+            (ShapeName::Cylinder, Some(length)) => {
+                let length = document.within("particle.length", length.si())?;
+                let rule = format!(
+                    "must be {} to {} times the radius",
+                    SLENDER.start(),
+                    SLENDER.end()
+                );
+                let holds = |length: f64| SLENDER.contains(&(length / self.radius.si()));
+                let length = document.check("particle.length", length, holds, &rule)?;
+                Ok(Shape::Cylinder { length })
+            }
+        }
     }
 }
 

@@ -3,10 +3,15 @@
 use crate::files::{Sum, rows_text, sum_of, with_sum, write_atomic, write_rows};
 use crate::material::flow::{FlowConstants, InSi, WithFlow};
 use crate::material::{Flow, Material};
+use crate::shape::Shape;
 use crate::unit::engineering;
 use crate::{Error, Result};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
+
+mod tables;
+
+pub use tables::{Cylinder, Heating, Tangential};
 
 /// One output interval of an impact. Field names are the CSV header (file contract).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -106,6 +111,9 @@ pub struct Summary {
     /// Wall time, s.
     #[serde(deserialize_with = "number_or_null")]
     pub wall_s: f64,
+    /// What became of a cylinder; absent from impacts of spheres.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cylinder: Option<Cylinder>,
     /// What plastic work heated; absent where the flow stress knows no temperature.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub heating: Option<Heating>,
@@ -128,6 +136,9 @@ pub struct Summary {
 pub struct Particle {
     /// R, m.
     pub radius_m: f64,
+    /// Length of a cylinder, m; absent for a sphere.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub length_m: Option<f64>,
     /// rho, kg/m3.
     pub density_kg_m3: f64,
     /// E, Pa.
@@ -145,6 +156,7 @@ pub struct Particle {
 #[serde(deny_unknown_fields)]
 struct ElasticParticle {
     radius_m: f64,
+    length_m: Option<f64>,
     density_kg_m3: f64,
     #[serde(rename = "young_modulus_Pa")]
     young_modulus_pa: f64,
@@ -156,6 +168,7 @@ impl From<WithFlow<ElasticParticle, InSi>> for Particle {
         let WithFlow { others, flow } = table;
         Particle {
             radius_m: others.radius_m,
+            length_m: others.length_m,
             density_kg_m3: others.density_kg_m3,
             young_modulus_pa: others.young_modulus_pa,
             poisson_ratio: others.poisson_ratio,
@@ -186,6 +199,12 @@ impl Particle {
     /// A sphere of `radius` (m).
     #[must_use]
     pub fn of(material: &Material, radius: f64) -> Self {
+        Self::of_shape(material, radius, Shape::Sphere)
+    }
+
+    /// A particle of `radius` (m) and a shape in units of it.
+    #[must_use]
+    pub fn of_shape(material: &Material, radius: f64, shape: Shape) -> Self {
         let Material {
             density,
             young_modulus,
@@ -194,6 +213,10 @@ impl Particle {
         } = material;
         Particle {
             radius_m: radius,
+            length_m: match shape {
+                Shape::Sphere => None,
+                Shape::Cylinder { length } => Some(length * radius),
+            },
             density_kg_m3: *density,
             young_modulus_pa: *young_modulus,
             poisson_ratio: *poisson_ratio,
@@ -208,6 +231,7 @@ impl Particle {
             let own = p.flow.checked().map_or_else(Vec::new, |f| f.constants());
             let mut all = vec![
                 ("radius".to_owned(), "m", Some(p.radius_m)),
+                ("length".to_owned(), "m", p.length_m),
                 ("density".to_owned(), "kg/m³", Some(p.density_kg_m3)),
                 ("young modulus".to_owned(), "Pa", Some(p.young_modulus_pa)),
                 ("poisson ratio".to_owned(), "", Some(p.poisson_ratio)),
@@ -236,47 +260,6 @@ impl Particle {
             })
             .collect()
     }
-}
-
-/// What became of the plastic work of matter that heats (table `heating` of `summary.json`). The body begins at its room
-/// temperature; repeated impacts begin as warm as the one before left it.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Heating {
-    /// Plastic work that became heat over the incident kinetic energy.
-    #[serde(deserialize_with = "number_or_null")]
-    pub heat_ratio: f64,
-    /// Plastic work that stays stored in the material over the incident kinetic energy.
-    #[serde(deserialize_with = "number_or_null")]
-    pub stored_work_ratio: f64,
-    /// Highest temperature of a material point, K.
-    #[serde(rename = "max_temperature_K")]
-    #[serde(deserialize_with = "number_or_null")]
-    pub max_temperature_k: f64,
-    /// Volume mean of the temperature at the end, K.
-    #[serde(rename = "mean_temperature_K")]
-    #[serde(deserialize_with = "number_or_null")]
-    pub mean_temperature_k: f64,
-}
-
-/// Figures of an impact along the wall (table `tangential` of `summary.json`).
-///
-/// Positive is the direction in which the particle came; a positive spin rolls that way.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Tangential {
-    /// Velocity along the wall before, m/s.
-    pub incident_velocity_m_s: f64,
-    /// Velocity of the centre of mass along the wall after, m/s.
-    pub velocity_m_s: f64,
-    /// Tangential restitution $e_t = -(v_t - R\omega)/V_t$ of the velocity of the contact point (Walton's beta); absent
-    /// from a normal impact.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub restitution: Option<f64>,
-    /// Angular velocity after: angular momentum over the moment of inertia 2/5 m R^2, rad/s.
-    pub angular_velocity_rad_s: f64,
-    /// Impulse along the wall over the normal impulse; the friction coefficient in full sliding.
-    pub impulse_ratio: f64,
 }
 
 /// A number; `null` is NaN.

@@ -40,6 +40,7 @@ pub mod plan;
 pub mod prelude;
 pub mod report;
 pub mod scheme;
+pub mod shape;
 pub mod space;
 pub mod study;
 pub mod tape;

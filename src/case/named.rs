@@ -31,6 +31,7 @@ materials! {
     "armco-iron",
     "ofhc-copper",
     "ofhc-copper-static",
+    "ofhc-copper-taylor",
     "steel-4340",
 }
 

@@ -39,7 +39,7 @@ impl Command for FitArgs {
     /// Those of reading the case and the impacts, of the fit, and of writing the law.
     fn run(&self, context: &Context) -> Result<Verdict> {
         let case = Case::read(&self.case)?;
-        check_normal(&case)?;
+        check_case(&case)?;
         let folder = self
             .impacts
             .clone()
@@ -112,11 +112,14 @@ pub fn check_target(target: &Path, case: &Case) -> Result<()> {
     Ok(())
 }
 
-/// Checks that the impacts of a case can be compared with a normal law.
+/// Checks that a normal law can be made of the impacts of a case.
 ///
 /// # Errors
-/// [`Error::Argument`] for an oblique impact or a wall with friction.
-pub fn check_normal(case: &Case) -> Result<()> {
+/// [`Error::Refused`] for what is no sphere and for a flow stress that depends on the size, [`Error::Argument`] for an oblique impact
+/// or a wall with friction.
+pub fn check_case(case: &Case) -> Result<()> {
+    case.of_a_sphere("a law")?;
+    crate::fit::check_material(&case.material)?;
     if case.angle == 0.0 && case.friction == 0.0 {
         return Ok(());
     }

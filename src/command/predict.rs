@@ -44,6 +44,7 @@ impl Command for PredictArgs {
     /// inputs that never changed in their data and are others here, impacts that do not yield.
     fn run(&self, _context: &Context) -> Result<Verdict> {
         let case = Case::read(&self.case)?.with_velocities(&self.velocity)?;
+        case.of_a_sphere("an equation")?;
         let file = EquationsFile::read(&self.equation)?;
         print(&self.table(&case, &file)?)?;
         Ok(Verdict::Met)

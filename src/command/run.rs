@@ -83,7 +83,7 @@ impl Command for RunArgs {
         let started = Instant::now();
         let document = Document::read(&self.case)?;
         let case = Case::from_document(&document)?;
-        super::fit::check_normal(&case)?;
+        super::fit::check_case(&case)?;
         let interval = impact::interval(&self.checkpoint)?;
         let scene = case
             .bed

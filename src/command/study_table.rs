@@ -270,7 +270,7 @@ fn table(rows: &[(&Case, Summary)], provenance: &str, path: &Path) -> Result<Vec
 }
 
 /// Keys and values of a case and of every figure of its run in the order of `summary.json` (`velocity_m_s` first), but for
-/// `particle`, `heating`, `tangential`, `warnings` and the wall time; the status as one word, its reason after a colon.
+/// `particle`, `cylinder`, `heating`, `tangential`, `warnings` and the wall time; the status as one word, its reason after a colon.
 fn row(case: &Case, summary: &Summary) -> serde_json::Result<Vec<(String, Cell)>> {
     let m = &case.material;
     let flow = FlowConstants::<InSi>::of(m.flow.as_ref());
@@ -302,6 +302,7 @@ fn row(case: &Case, summary: &Summary) -> serde_json::Result<Vec<(String, Cell)>
             .filter(|key| {
                 ![
                     "particle",
+                    "cylinder",
                     "heating",
                     "tangential",
                     "warnings",

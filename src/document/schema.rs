@@ -102,6 +102,13 @@ fn of_kind(kind: &Kind, range: &str, quantities: &mut Map<String, Value>) -> Val
             json!({ "type": "object", "properties": properties, "required": [tag], "allOf": choices })
         }
         Kind::Either(one, other) => {
+            if let (Kind::Table(table), Kind::Name(names)) = (&**one, &**other) {
+                // `anyOf` would blame the whole table for a wrong key; what is said of properties holds for a table, a pattern for a name
+                let mut schema = of_table(table, None, quantities);
+                schema["type"] = json!(["object", "string"]);
+                schema["pattern"] = json!(format!("^({})$", names.join("|")));
+                return schema;
+            }
             let both = [one, other].map(|kind| of_kind(kind, range, quantities));
             json!({ "anyOf": both })
         }

@@ -14,6 +14,7 @@ use crate::contact::elastoplastic::Elastoplastic;
 use crate::contact::loading::SoftenedHertz;
 use crate::contact::spline::SplineLoading;
 use crate::curve::Impact;
+use crate::material::Material;
 use crate::theory::hertz::Hertz;
 use crate::{Error, Result};
 use confidence::LeftOut;
@@ -98,6 +99,24 @@ pub struct Fit {
     pub missing: Option<String>,
 }
 
+/// Checks that one law can hold for all sizes of a material.
+///
+/// # Errors
+/// [`Error::Refused`] naming the constant of the flow stress that makes sizes differ.
+pub fn check_material(material: &Material) -> Result<()> {
+    let constants = material.flow.map_or_else(Vec::new, |f| f.constants());
+    match constants.iter().find(|(c, _)| c.dimension.has_time()) {
+        None => Ok(()),
+        Some((constant, _)) => Err(Error::Refused {
+            what: "material".to_owned(),
+            found: format!("`{}`", constant.key),
+            allowed: "must be left out: it makes impacts of other radii differ, and a law F = R^2 phi(delta/R) is one for all of them; \
+                      `impactlaw impact` and `study` run this material"
+                .to_owned(),
+        }),
+    }
+}
+
 /// Fit the law of a case's material to its impacts.
 ///
 /// A material without yield strength, or impacts that all stay below its yield speed, give Hertz's law.
@@ -109,17 +128,10 @@ pub struct Fit {
 /// out by name.
 ///
 /// # Errors
-/// [`Error::Fit`] when no impact is left, the flow stress depends on the size, or neither form finds an admissible law.
+/// What [`check_material`] returns; [`Error::Fit`] when no impact is left, or neither form finds an admissible law.
 pub fn fit(case: &Case, impacts: &[Impact]) -> Result<Fit> {
-    let constants = case.material.flow.map_or_else(Vec::new, |f| f.constants());
-    if let Some((constant, _)) = constants.iter().find(|(c, _)| c.dimension.has_time()) {
-        return Err(Error::Fit {
-            reason: format!(
-                "the {} makes impacts of other radii differ, and a law F = R^2 phi(delta/R) is one for all of them",
-                constant.name()
-            ),
-        });
-    }
+    case.of_a_sphere("a law")?;
+    check_material(&case.material)?;
     let elastic_scale = Scale::elastic(&case.material, case.radius);
     let (used, skipped) = usable(impacts, &elastic_scale);
     let speeds: Vec<f64> = used.iter().map(|i| i.summary.velocity_m_s).collect();

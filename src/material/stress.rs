@@ -286,6 +286,8 @@ impl<F: FlowStress> J2<F> {
         let mid = (first + new_norm) * recip;
         let drop = (trial.mean - mean) * (1.5 * mu);
         let work = (drop * mid).where_positive(plastic, Lanes::default());
+        // a point turned inside out has no meaningful dissipation
+        let work = work.where_positive(*recip_j, Lanes::default());
         let gain = (drop * recip * (2.0 * ROOT)).where_positive(plastic, Lanes::default());
         // within rounding the drop may come out negative
         state.strain += gain.where_positive(gain, Lanes::default());

@@ -1,10 +1,13 @@
 //! Grid: cells of the background grid, and what is done in them against large deformation.
 
+use crate::shape::Shape;
 use std::f64::consts::PI;
 
 /// Background grid, lengths in R.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Grid {
+    /// Shape of the body, lengths in R.
+    pub shape: Shape,
     /// Degree of the B-splines, 1 to 3.
     pub degree: usize,
     /// Gauss points a direction in every smooth piece of a cell.

@@ -4,14 +4,16 @@
 //! the whole run depends on (E/Y, rho V^2/E, nu) alone.
 
 use crate::case::Case;
-use crate::material::flow::{Past, YIELD_STRENGTH};
+use crate::material::Material;
 use crate::material::stress::Moduli;
-use crate::material::{Flow, Material, YIELD_PRESSURE_RATIO};
 use crate::scheme::Scheme;
-use crate::unit::{engineering, significant};
+use crate::shape::Shape;
+use crate::unit::significant;
 use crate::{Error, Result};
 use std::f64::consts::PI;
 
+mod bar;
+mod effects;
 mod grid;
 mod predict;
 mod similar;
@@ -203,7 +205,7 @@ pub fn plans(case: &Case) -> Result<Vec<Plan>> {
 pub fn plan(case: &Case, velocity: f64) -> Plan {
     let material = &case.material;
     let geometry = geometry(case);
-    let (mut effects, plastic) = effects(case, velocity * case.angle.cos());
+    let (mut effects, plastic) = effects::of(case, velocity * case.angle.cos());
     // what does not yield is planned as what cannot
     let elastic = Material {
         flow: None,
@@ -211,35 +213,46 @@ pub fn plan(case: &Case, velocity: f64) -> Plan {
     };
     let acting = if plastic { material } else { &elastic };
     let asked = velocity;
-    let velocity = if plastic || geometry != Geometry::Axisymmetric {
+    let shape = case.shape.over(case.radius);
+    let slender = shape != Shape::Sphere;
+    let velocity = if plastic || slender || geometry != Geometry::Axisymmetric {
         asked
     } else {
         let expected = estimate(acting, asked * case.angle.cos()).displacement;
         similar::run_speed(asked, expected, case.tolerance)
     };
     let normal = velocity * case.angle.cos();
-    let estimate = estimate(acting, normal);
-    let mut grid = match geometry {
-        Geometry::Axisymmetric => grid(&estimate, case, velocity),
+    let estimate = match shape {
+        Shape::Sphere => estimate(acting, normal),
+        Shape::Cylinder { length } => bar::estimate(acting, normal, length, case.radius),
+    };
+    let mut grid = match (shape, geometry) {
+        (Shape::Cylinder { .. }, _) => bar::grid(shape, case.tolerance),
+        (_, Geometry::Axisymmetric) => grid(&estimate, case, velocity),
         _ => solid_grid(&estimate, case, normal),
     };
     let severity = severity(acting, normal);
     if geometry != Geometry::Axisymmetric && plastic {
         grid.remedies = Remedies::SOLID;
     } else if severity > LARGE_FROM {
-        let cells = cells_per_flat_radius(severity, case.tolerance);
-        grid.fine = grid.fine.min(estimate.contact_radius / cells);
+        if !slender {
+            let cells = cells_per_flat_radius(severity, case.tolerance);
+            grid.fine = grid.fine.min(estimate.contact_radius / cells);
+        }
         grid.remedies = Remedies::large(estimate.contact_radius / grid.fine);
         let waves = Moduli::new(material.young_modulus, material.poisson_ratio);
         grid.dt_share =
             viscosity::stable_share(normal / waves.dilatational_speed(material.density));
     }
-    if geometry == Geometry::Axisymmetric && severity <= LARGE_FROM {
+    if geometry == Geometry::Axisymmetric && severity <= LARGE_FROM && !slender {
         grid = grid.scaled_mass(ADDED_MASS * case.tolerance, estimate.contact_time);
     }
     effects.push(similar::mass_scaling(&grid, &estimate));
     effects.push(similar::similar_impact(asked, velocity, &estimate));
-    let ring_time = 1.5 * fundamental_period(material.poisson_ratio);
+    let ring_time = match shape {
+        Shape::Sphere => 1.5 * fundamental_period(material.poisson_ratio),
+        Shape::Cylinder { length } => bar::ring_time(length),
+    };
     let plan = Plan {
         velocity: asked,
         run_velocity: velocity,
@@ -302,6 +315,7 @@ fn grid(estimate: &Estimate, case: &Case, velocity: f64) -> Grid {
     let m = &case.material;
     let mach = velocity / (m.young_modulus / m.density).sqrt();
     Grid {
+        shape: Shape::Sphere,
         degree: 2,
         points_per_direction: 2,
         fine: a / cells_per_radius(case.tolerance),
@@ -341,6 +355,7 @@ fn solid_grid(estimate: &Estimate, case: &Case, velocity: f64) -> Grid {
     let slip = case.angle.tan().min(7.0 * case.friction);
     let rolled = 5.0 / 14.0 * slip * speed * estimate.contact_time;
     Grid {
+        shape: Shape::Sphere,
         degree: 2,
         points_per_direction: 2,
         fine: a / (10.0 * (0.02 / case.tolerance).sqrt()).clamp(6.0, 20.0),
@@ -362,144 +377,6 @@ const LARGE_FROM: f64 = 0.1;
 pub fn severity(material: &Material, velocity: f64) -> f64 {
     let pressure = material.density * velocity * velocity;
     material.flow.map_or(0.0, |f| pressure / f.yield_strength())
-}
-
-/// Which effects the scene calls for.
-fn effects(case: &Case, velocity: f64) -> (Vec<Effect>, bool) {
-    let yield_point = case.material.yield_point(case.radius, YIELD_PRESSURE_RATIO);
-    let (plastic, why) = match yield_point {
-        None => (false, "the material has no yield strength".to_owned()),
-        Some(y) if velocity <= y.velocity => (
-            false,
-            format!("V <= V_y = {}", engineering(y.velocity, "m/s", 3)),
-        ),
-        Some(y) => (
-            true,
-            format!(
-                "V is {} times V_y = {}",
-                significant(velocity / y.velocity, 3),
-                engineering(y.velocity, "m/s", 3)
-            ),
-        ),
-    };
-    let solid = geometry(case) != Geometry::Axisymmetric;
-    let severity = severity(&case.material, velocity);
-    let mut list = vec![
-        Effect {
-            name: "three dimensions",
-            on: solid,
-            reason: match geometry(case) {
-                Geometry::Axisymmetric if case.angle > 0.0 => {
-                    "without friction only the normal velocity matters".to_owned()
-                }
-                Geometry::Axisymmetric => "a normal impact on a plane is axisymmetric".to_owned(),
-                Geometry::Quarter => {
-                    "friction acts in the wall; a quarter, two planes of symmetry".to_owned()
-                }
-                Geometry::Half => format!(
-                    "{} from the normal; a half, one plane of symmetry",
-                    engineering(case.angle.to_degrees(), "deg", 3)
-                ),
-            },
-        },
-        Effect {
-            name: "friction",
-            on: solid,
-            reason: if solid {
-                format!("coefficient {}", case.friction)
-            } else {
-                "the wall is frictionless".to_owned()
-            },
-        },
-        Effect {
-            name: "plasticity",
-            on: plastic,
-            reason: why,
-        },
-    ];
-    list.extend(flow_effects(case, velocity, plastic));
-    list.extend([
-        Effect {
-            name: "large deformation",
-            on: severity > LARGE_FROM,
-            reason: format!(
-                "rho V^2/Y is {}, remedies start at {LARGE_FROM}",
-                significant(severity, 3)
-            ),
-        },
-        Effect {
-            name: "gravity",
-            on: false,
-            reason: "the impact is over long before gravity moves the particle".to_owned(),
-        },
-    ]);
-    (list, plastic)
-}
-
-/// Effects on the flow stress besides yielding, of every kind there is: on where the material has their constants.
-fn flow_effects(case: &Case, velocity: f64, plastic: bool) -> Vec<Effect> {
-    let flow = case.material.flow;
-    let own = flow.map_or_else(Vec::new, |flow| flow.constants());
-    let mut list: Vec<Effect> = Vec::new();
-    for constant in Flow::all_constants() {
-        let name = constant.effect;
-        if name == YIELD_STRENGTH.effect || list.iter().any(|effect| effect.name == name) {
-            continue;
-        }
-        let given: Vec<String> = own
-            .iter()
-            .filter(|(c, value)| c.effect == name && *value != 0.0)
-            .map(|(c, value)| {
-                let text = match c.dimension.unit() {
-                    "Pa" => format!("{} = {}", c.symbol, engineering(*value, "Pa", 4)),
-                    unit => format!("{} = {value:.4e} {unit}", c.symbol),
-                };
-                text.trim_end().to_owned()
-            })
-            .collect();
-        let size = flow
-            .filter(|_| plastic)
-            .and_then(|flow| size_of_effect(flow, name, case, velocity));
-        list.push(Effect {
-            name,
-            on: plastic && !given.is_empty(),
-            reason: match (given.is_empty(), size) {
-                (true, _) => format!("no {} given", constant.name()),
-                (false, None) => given.join(", "),
-                (false, Some(size)) => format!("{}: {size}", given.join(", ")),
-            },
-        });
-    }
-    list
-}
-
-/// What leaving out the rate or the heating would change of the flow stress, in words; nothing for other effects. The rate is
-/// V/R, the strain that of the whole body were it flattened by the work of its motion at that stress, and the heat that of this work.
-fn size_of_effect(flow: Flow, effect: &str, case: &Case, velocity: f64) -> Option<String> {
-    let [_, flattening] = case.material.flattening_limits(velocity);
-    let rate = velocity / case.radius;
-    let still = Past {
-        strain: 0.5 * flattening.min(1.0),
-        ..Past::default()
-    };
-    let flowing = Past { rate, ..still };
-    let work = 0.5 * velocity * velocity;
-    let warm = Past { work, ..flowing };
-    let [(at_rest, _), (at_rate, cold), (heated, hot)] =
-        [still, flowing, warm].map(|past| flow.after(past));
-    match effect {
-        "rate" => Some(format!(
-            "at V/R = {} 1/s the flow stress is {} times that at rest",
-            significant(rate, 2),
-            significant(at_rate / at_rest, 3)
-        )),
-        "heating" => Some(format!(
-            "the work of the impact warms the whole body by {} K, which leaves {} % of the flow stress",
-            significant(hot? - cold?, 2),
-            significant(100.0 * heated / at_rate, 3)
-        )),
-        _ => None,
-    }
 }
 
 /// Period of the fundamental (oblate-prolate, l = 2) vibration of a sphere, R/c0.

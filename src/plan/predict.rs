@@ -9,6 +9,7 @@
 use super::{Geometry, Plan, graded, severity};
 use crate::material::Material;
 use crate::scheme::{Layout, Reference, TimeStep, Transfer};
+use crate::shape::Shape;
 
 /// Point-steps a second and core of quadratic splines in the axisymmetric section, contact and outputs included.
 const THROUGHPUT: f64 = 5.5e7;
@@ -69,7 +70,9 @@ pub fn with_prediction(mut plan: Plan, material: &Material) -> Plan {
         let refreshes = squeezed / interval;
         (squeezed + REFRESH_SWEEPS * refreshes, throughput(&plan))
     };
-    plan.seconds = plan.points as f64 * sweeps / throughput;
+    let flow = material.flow.filter(|_| plan.plastic);
+    let cost = flow.map_or(1.0, crate::material::Flow::cost);
+    plan.seconds = cost * plan.points as f64 * sweeps / throughput;
     plan
 }
 
@@ -121,9 +124,12 @@ fn points(plan: &Plan) -> usize {
         |length: f64, to: f64| graded(length, grid.fine, to, grid.growth, grid.coarse).len();
     let (across, up) = (
         count(1.0, grid.fine_width) as f64,
-        count(2.0, grid.fine_depth) as f64,
+        count(grid.shape.height(), grid.fine_depth) as f64,
     );
     let side = grid.points_per_direction as f64;
+    if let Shape::Cylinder { .. } = grid.shape {
+        return (across * up * side.powi(2)) as usize;
+    }
     let points = match (plan.geometry, plan.scheme.layout) {
         (Geometry::Quarter, Layout::Lattice(n)) => std::f64::consts::PI / 24.0 * n.powi(3),
         (Geometry::Half, Layout::Lattice(n)) => std::f64::consts::PI / 12.0 * n.powi(3),

@@ -141,15 +141,17 @@ impl Space for Axisymmetric {
     }
     #[inline(always)]
     fn add_row(g: &mut AxialGradient, u: &[[f64; 2]], first: &[Lanes], row: &[Lanes; 3]) {
-        let (values, slopes) = first.split_at(u.len());
+        let nodes = u.len();
+        let (values, slopes) = (&first[..nodes], &first[nodes..2 * nodes]);
         let zero = Lanes::default();
         let (mut r, mut r_slope, mut z, mut z_slope) = (zero, zero, zero, zero);
-        for (u, (value, slope)) in u.iter().zip(values.iter().zip(slopes)) {
-            let (ur, uz) = (Lanes::splat(u[0]), Lanes::splat(u[1]));
-            r = ur.mul_add(*value, r);
-            r_slope = ur.mul_add(*slope, r_slope);
-            z = uz.mul_add(*value, z);
-            z_slope = uz.mul_add(*slope, z_slope);
+        // zipped iterators are functions of their own, and may end up in another part of the program, never to be inlined
+        for n in 0..nodes {
+            let (ur, uz) = (Lanes::splat(u[n][0]), Lanes::splat(u[n][1]));
+            r = ur.mul_add(values[n], r);
+            r_slope = ur.mul_add(slopes[n], r_slope);
+            z = uz.mul_add(values[n], z);
+            z_slope = uz.mul_add(slopes[n], z_slope);
         }
         g.rr = r_slope.mul_add(row[0], g.rr);
         g.rz = r.mul_add(row[1], g.rz);
@@ -159,12 +161,16 @@ impl Space for Axisymmetric {
     }
     #[inline(always)]
     fn add_row_force(force: &mut [Lanes], p: &AxialGradient, first: &[Lanes], row: &[Lanes; 3]) {
-        let (values, slopes) = first.split_at(force.len() / 2);
+        let nodes = force.len() / 2;
+        let (values, slopes) = (&first[..nodes], &first[nodes..2 * nodes]);
         let (r_slope, z_slope) = (p.rr * row[0], p.zr * row[0]);
         let (r, z) = (p.rz.mul_add(row[1], p.hoop * row[2]), p.zz * row[1]);
-        for (force, (value, slope)) in force.chunks_exact_mut(2).zip(values.iter().zip(slopes)) {
-            force[0] = r_slope.mul_add(*slope, r.mul_add(*value, force[0]));
-            force[1] = z_slope.mul_add(*slope, z.mul_add(*value, force[1]));
+        // as above
+        for n in 0..nodes {
+            let (value, slope) = (values[n], slopes[n]);
+            let [along_r, along_z] = [2 * n, 2 * n + 1];
+            force[along_r] = r_slope.mul_add(slope, r.mul_add(value, force[along_r]));
+            force[along_z] = z_slope.mul_add(slope, z.mul_add(value, force[along_z]));
         }
     }
     #[inline(always)]

@@ -184,13 +184,15 @@ impl Space for Solid {
     }
     #[inline(always)]
     fn add_row(g: &mut SolidGradient, u: &[[f64; 3]], first: &[Lanes], row: &[Lanes; 3]) {
-        let (values, slopes) = first.split_at(u.len());
+        let nodes = u.len();
+        let (values, slopes) = (&first[..nodes], &first[nodes..2 * nodes]);
         for (k, entries) in g.0.iter_mut().enumerate() {
             let (mut sum, mut sum_slope) = (Lanes::default(), Lanes::default());
-            for (u, (value, slope)) in u.iter().zip(values.iter().zip(slopes)) {
-                let u = Lanes::splat(u[k]);
-                sum = u.mul_add(*value, sum);
-                sum_slope = u.mul_add(*slope, sum_slope);
+            // zipped iterators are functions of their own, and may end up in another part of the program, never to be inlined
+            for n in 0..nodes {
+                let u = Lanes::splat(u[n][k]);
+                sum = u.mul_add(values[n], sum);
+                sum_slope = u.mul_add(slopes[n], sum_slope);
             }
             entries[0] = sum_slope.mul_add(row[0], entries[0]);
             entries[1] = sum.mul_add(row[1], entries[1]);
@@ -199,13 +201,15 @@ impl Space for Solid {
     }
     #[inline(always)]
     fn add_row_force(force: &mut [Lanes], p: &SolidGradient, first: &[Lanes], row: &[Lanes; 3]) {
-        let (values, slopes) = first.split_at(force.len() / 3);
+        let nodes = force.len() / 3;
+        let (values, slopes) = (&first[..nodes], &first[nodes..2 * nodes]);
         for (k, p) in p.0.iter().enumerate() {
             let along = p[0] * row[0];
             let across = p[1].mul_add(row[1], p[2] * row[2]);
-            for (force, (value, slope)) in force.chunks_exact_mut(3).zip(values.iter().zip(slopes))
-            {
-                force[k] = along.mul_add(*slope, across.mul_add(*value, force[k]));
+            // as above
+            for n in 0..nodes {
+                let at = 3 * n + k;
+                force[at] = along.mul_add(slopes[n], across.mul_add(values[n], force[at]));
             }
         }
     }

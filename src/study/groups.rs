@@ -5,6 +5,7 @@ use crate::case::Case;
 use crate::material::constant::{Absent, Dimension};
 use crate::material::flow::YIELD_STRENGTH;
 use crate::material::{Flow, Material, ReferenceUnits, YIELD_PRESSURE_RATIO};
+use crate::shape::Shape;
 use std::path::PathBuf;
 
 /// Units of every kept run: R = rho = E = 1.
@@ -42,6 +43,8 @@ impl Groups {
             path: _,
             hash: _,
             bed: _,
+            // studies are of spheres
+            shape: _,
             radius,
             material,
             velocities,
@@ -109,6 +112,7 @@ impl Groups {
             path: PathBuf::from(&name),
             name,
             hash: "0".repeat(64),
+            shape: Shape::Sphere,
             radius: REFERENCE.length,
             material: Material {
                 density: REFERENCE.density,

@@ -6,6 +6,7 @@ use crate::case::{Case, slips};
 use crate::document::Document;
 use crate::material::flow::{FlowConstants, InText, YIELD_STRENGTH};
 use crate::material::{Flow, Material, YIELD_PRESSURE_RATIO};
+use crate::shape::Shape;
 use crate::{Error, Result};
 use rand::RngExt;
 use rand_pcg::Pcg64;
@@ -192,6 +193,7 @@ impl Lists<'_> {
             name: block.name.clone().unwrap_or_else(|| document.name()),
             path: document.path().to_owned(),
             hash: document.hash(),
+            shape: Shape::Sphere,
             radius: required(Variable::Radius)?,
             material,
             velocities: vec![self.velocity(chosen, &at, &material)?],

@@ -282,7 +282,11 @@ pub const READERS: &[Reader] = &[
 ];
 
 /// Files of `src` that read, but nothing that anyone writes for the program or that it keeps.
-const OTHERS: [(&str, &str); 5] = [
+const OTHERS: [(&str, &str); 6] = [
+    (
+        "case/named.rs",
+        "constants of materials, which are part of the program",
+    ),
     ("atlas/mod.rs", "the atlas, which is part of the program"),
     (
         "command/study_merge.rs",

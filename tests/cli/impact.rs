@@ -61,3 +61,86 @@ fn a_run_that_cannot_finish_says_why_and_keeps_what_it_has() {
         kept.summary.status
     );
 }
+
+const COPPER: &str = "material = \"ofhc-copper\"\n[particle]\nradius = \"250 um\"\n[impact]\nvelocities = [\"20 m/s\"]\n[accuracy]\ntolerance = 0.2\n";
+
+#[test]
+fn what_no_law_holds_for_is_refused_by_name_before_the_first_step_and_nothing_is_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let bar = COPPER.replace(
+        "[particle]",
+        "[particle]\nshape = \"cylinder\"\nlength = \"1 mm\"",
+    );
+    let cases: [(&str, &[&str], &str); 6] = [
+        (COPPER, &["run", "c.toml"], "`reference_rate`"),
+        (COPPER, &["fit", "c.toml"], "`reference_rate`"),
+        (&bar, &["run", "c.toml"], "\"cylinder\""),
+        (&bar, &["fit", "c.toml"], "\"cylinder\""),
+        (&bar, &["cost", "c.toml"], "\"cylinder\""),
+        (&bar, &["theory", "hertz", "c.toml"], "\"cylinder\""),
+    ];
+    for (text, arguments, named) in cases {
+        std::fs::write(folder.path().join("c.toml"), text).unwrap();
+        let output = impactlaw(folder.path(), arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        let message = message(&output);
+        assert!(message.contains(named), "{arguments:?}: {message}");
+        assert!(!folder.path().join("out").exists(), "{arguments:?}");
+    }
+    for (key, value, said) in [
+        (
+            "melting_temperature",
+            "\"290 K\"",
+            "must be above `room_temperature`",
+        ),
+        ("rate_sensitivity", "-0.1", "must lie in [0, 1]"),
+        ("softening_exponent", "0", "must be positive"),
+        ("specific_heat", "\"-3 J/(kg K)\"", "must be positive"),
+        ("reference_rate", "\"0 1/s\"", "must be positive"),
+        ("taylor_quinney_coefficient", "1.1", "must lie in [0, 1]"),
+        ("hardening_exponent", "1.5", "at most 1"),
+        (
+            "hardening_coefficient",
+            "\"-1 MPa\"",
+            "must not be negative",
+        ),
+        ("doubling_rate", "\"1 1/s\"", "of one kind"),
+    ] {
+        let constants = [
+            ("density", "\"8960 kg/m3\""),
+            ("young_modulus", "\"124 GPa\""),
+            ("poisson_ratio", "0.34"),
+            ("yield_strength", "\"90 MPa\""),
+            ("hardening_coefficient", "\"292 MPa\""),
+            ("hardening_exponent", "0.31"),
+            ("rate_sensitivity", "0.025"),
+            ("softening_exponent", "1.09"),
+            ("melting_temperature", "\"1356 K\""),
+            ("specific_heat", "\"383 J/(kg K)\""),
+        ];
+        let mut table = String::from("[material]\n");
+        for (name, usual) in constants.iter().filter(|(name, _)| *name != key) {
+            table.push_str(&format!("{name} = {usual}\n"));
+        }
+        table.push_str(&format!("{key} = {value}\n[impact]"));
+        let text = COPPER
+            .replace("material = \"ofhc-copper\"\n", "")
+            .replace("[impact]", &table);
+        let output = impact(folder.path(), &text, &[]);
+        assert_eq!(output.status.code(), Some(2), "{key}");
+        let message = message(&output);
+        assert!(
+            message.contains(key) && message.contains(said),
+            "{key}: {message}"
+        );
+        assert!(!folder.path().join("o").exists(), "{key}");
+    }
+    let unknown = COPPER.replace("ofhc-copper", "unobtainium");
+    let output = impact(folder.path(), &unknown, &[]);
+    assert_eq!(output.status.code(), Some(2));
+    let message = message(&output);
+    assert!(
+        message.contains("unobtainium") && message.contains("armco-iron"),
+        "{message}"
+    );
+}

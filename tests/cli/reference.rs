@@ -8,7 +8,7 @@ use impactlaw::cli::Cli;
 use impactlaw::command::help::{self, markdown};
 use impactlaw::command::schema::FILES;
 use impactlaw::cost::accuracy::Line;
-use impactlaw::curve::{Heating, Summary, Tangential};
+use impactlaw::curve::{Cylinder, Heating, Summary, Tangential};
 use impactlaw::discover::file::EquationsFile;
 use impactlaw::document::Document;
 use impactlaw::document::reference::{Section as Place, sections, sentence};
@@ -240,9 +240,10 @@ fn columns() -> BTreeMap<String, BTreeSet<String>> {
 }
 
 /// Keys of an impact's summary that a normal impact without incident lacks.
-const MAY_BE_ABSENT: [&str; 3] = ["heating", "tangential", "warnings"];
+const MAY_BE_ABSENT: [&str; 4] = ["cylinder", "heating", "tangential", "warnings"];
 /// Keys of an impact's summary that are no figures, and not in `results.csv`; in the order of the alphabet.
-const NO_FIGURES: [&str; 6] = [
+const NO_FIGURES: [&str; 7] = [
+    "cylinder",
     "heating",
     "particle",
     "sha256",
@@ -424,6 +425,11 @@ fn every_column_of_every_file_has_its_line_and_no_other() {
         angular_velocity_rad_s: 1.0,
         impulse_ratio: 1.0,
     });
+    summary.cylinder = Some(Cylinder {
+        final_length_m: 1.0,
+        foot_diameter_m: 1.0,
+        diameter_at_fifth_m: 1.0,
+    });
     summary.heating = Some(Heating {
         heat_ratio: 0.8,
         stored_work_ratio: 0.1,
@@ -431,6 +437,10 @@ fn every_column_of_every_file_has_its_line_and_no_other() {
         mean_temperature_k: 300.0,
     });
     let value = serde_json::to_value(&summary).unwrap();
+    assert_eq!(
+        reference["cylinder of summary.json"],
+        keys(&value["cylinder"].to_string())
+    );
     assert_eq!(
         reference["heating of summary.json"],
         keys(&value["heating"].to_string())
@@ -442,8 +452,11 @@ fn every_column_of_every_file_has_its_line_and_no_other() {
     // constants of a flow stress stand there where the particle has them
     let mut particle = keys(&value["particle"].to_string());
     particle.extend(Flow::all_constants().iter().map(InSi::key));
+    // and the length where it is a cylinder
+    particle.insert("length_m".to_owned());
     assert_eq!(reference["particle of summary.json"], particle);
     let elsewhere = [
+        "cylinder of summary.json",
         "heating of summary.json",
         "particle of summary.json",
         "tangential of summary.json",

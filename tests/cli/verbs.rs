@@ -82,7 +82,7 @@ fn a_bad_case_is_refused_with_place_found_and_remedy() {
             "radus =",
             "case.toml:2:1",
             "`particle.radus`",
-            "expected `radius`",
+            "expected one of `radius`",
         ),
         (
             "\"250 um\"",

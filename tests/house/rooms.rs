@@ -15,7 +15,7 @@ const ROOMS: Order = &[
     &["files", "unit", "lanes"],
     &["tape"],
     &["document", "scheme", "space"],
-    &["material"],
+    &["material", "shape"],
     &["case", "contact", "curve"],
     &["plan", "study"],
     &["impact"],

@@ -11,3 +11,4 @@ mod plastic;
 mod scan;
 mod schemes;
 mod solid;
+mod taylor;

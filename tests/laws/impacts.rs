@@ -3,6 +3,7 @@
 use impactlaw::case::Case;
 use impactlaw::curve::{Curve, Impact, Sample, Status, Summary};
 use impactlaw::material::{Flow, Material};
+use impactlaw::shape::Shape;
 use std::path::Path;
 
 /// Radius, m.
@@ -34,6 +35,7 @@ pub fn case(material: Material, velocities: &[f64]) -> Case {
         name: "impacts".into(),
         path: "impacts.toml".into(),
         hash: "0".repeat(64),
+        shape: Shape::Sphere,
         radius: RADIUS,
         material,
         velocities: velocities.to_vec(),
@@ -72,6 +74,7 @@ pub fn summary(velocity: f64, figures: [f64; 5]) -> Summary {
         points: 0,
         steps: 0,
         wall_s: 0.0,
+        cylinder: None,
         heating: None,
         tangential: None,
         particle: None,

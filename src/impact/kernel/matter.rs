@@ -155,24 +155,27 @@ fn respond<S: Space, M: Constitutive<S>>(
     purpose: Purpose,
     clock: f64,
 ) {
-    for (s, block) in scratch.iter_mut().zip(blocks(cells)) {
+    for (at, block) in blocks(cells).enumerate() {
+        let s = &mut scratch[at];
         s.response = material.trial(&s.kinematics, &states[block]);
     }
     if purpose == Purpose::Trial {
         return;
     }
-    let mut scratch = scratch.iter_mut();
+    let mut at = 0;
     for cell in cells {
         let dt = clock - cell.moved;
         let states = &mut states[cell.first as usize..cell.last as usize];
+        let scratch = &mut scratch[at..at + states.len()];
+        at += states.len();
         if purpose == Purpose::Look {
-            for (state, s) in states.iter().zip(&mut scratch) {
-                let mut state = *state;
+            for (k, s) in scratch.iter_mut().enumerate() {
+                let mut state = states[k];
                 s.response = material.settle(&s.kinematics, dt, &mut state, &s.response);
             }
         } else {
-            for (state, s) in states.iter_mut().zip(&mut scratch) {
-                s.response = material.settle(&s.kinematics, dt, state, &s.response);
+            for (k, s) in scratch.iter_mut().enumerate() {
+                s.response = material.settle(&s.kinematics, dt, &mut states[k], &s.response);
             }
             cell.moved = clock;
         }

@@ -51,10 +51,9 @@ impl<S: Space, const N: usize> Points<S, N> {
         self.partial
             .resize(force.len() * S::DIRECTIONS, Lanes::default());
         let sweep = self.pass(cells, purpose, u);
-        let sums = self.partial.chunks_exact(S::DIRECTIONS);
-        for (force, lanes) in force.iter_mut().zip(sums) {
-            for (x, lanes) in force.as_mut().iter_mut().zip(lanes) {
-                *x = 0.0 - lanes.sum();
+        for (n, force) in force.iter_mut().enumerate() {
+            for (k, x) in force.as_mut().iter_mut().enumerate() {
+                *x = 0.0 - self.partial[n * S::DIRECTIONS + k].sum();
             }
         }
         sweep

@@ -143,10 +143,12 @@ impl<S: Space, const N: usize> Points<S, N> {
     #[inline(always)]
     fn damp(&mut self, cells: Range<usize>, tally: &mut Tally) {
         let cells = &self.cells[cells];
-        let mut scratch = self.scratch.iter();
+        let mut at = 0;
         for cell in cells {
             let dt = self.clock - cell.moved;
-            for (block, s) in (cell.first as usize..cell.last as usize).zip(&mut scratch) {
+            for block in cell.first as usize..cell.last as usize {
+                let s = &self.scratch[at];
+                at += 1;
                 let work = self.shock.follow(block, s.j, cell.side, dt);
                 tally.shock += work * self.volumes[block] * cell.strength;
             }
@@ -183,15 +185,15 @@ impl<S: Space, const N: usize> Points<S, N> {
         let moduli = self.moduli;
         let own_bulk = 0.5 * moduli.bulk * self.own_volume;
         let share = 1.0 - self.own_volume;
-        let mut scratch = self.scratch.iter_mut();
+        let mut at = 0;
         for cell in &self.cells[cells] {
             let pressure = moduli.volumetric_stress(cell.dilatation) * share;
-            for (block, scratch) in (cell.first as usize..cell.last as usize).zip(&mut scratch) {
+            for block in cell.first as usize..cell.last as usize {
+                let scratch = &mut self.scratch[at];
+                at += 1;
                 let volume = self.volumes[block] * cell.strength;
                 let (j, answer) = (scratch.j, &scratch.response);
-                // a point turned inside out has no meaningful dissipation
-                let work = answer.dissipation * volume;
-                tally.plastic += work.where_positive(j, Lanes::default());
+                tally.plastic += answer.dissipation * volume;
                 if purpose.sums_energy() {
                     let mut energy = (answer.mean - Lanes::splat(1.0)) * (1.5 * moduli.shear);
                     if self.own_volume > 0.0 {
@@ -225,11 +227,12 @@ impl<S: Space, const N: usize> Points<S, N> {
             for row in 0..Self::ROWS {
                 let node = cell.node as usize + self.offsets[row * Self::SIDE];
                 let force = &mut self.partial[node * S::DIRECTIONS..][..Self::SIDE * S::DIRECTIONS];
-                for (block, scratch) in blocks.clone().zip(&self.scratch[at..]) {
+                for (k, block) in blocks.clone().enumerate() {
                     let factors = &self.factors[block * Self::STRIDE..][..Self::STRIDE];
                     let (first, _) = factors.split_at(2 * Self::SIDE);
                     let weights = S::row(factors, Self::SIDE, row);
-                    S::add_row_force(force, &scratch.kinematics.gradient, first, &weights);
+                    let gradient = &self.scratch[at + k].kinematics.gradient;
+                    S::add_row_force(force, gradient, first, &weights);
                 }
             }
             at += blocks.len();
@@ -253,6 +256,7 @@ pub(super) mod tests {
     pub type Metal = J2<PerfectlyPlastic>;
 
     pub const GRID: Grid = Grid {
+        shape: crate::shape::Shape::Sphere,
         degree: 2,
         points_per_direction: 2,
         fine: 0.1,

@@ -5,11 +5,12 @@ pub mod solid;
 use crate::impact::grid::section::Section;
 use crate::impact::kernel::{Matter, Point, Points};
 use crate::impact::points::lattice;
-use crate::impact::points::section::{SectionPoint, SurfacePoint, clip_cell, meridian};
+use crate::impact::points::section::{SectionPoint, SurfacePoint, clip_cell, meridian, whole_cell};
 use crate::impact::wall::contact_point::ContactPoint;
 use crate::impact::wall::meridian::{Contact, Wall};
 use crate::plan::{Grid, graded};
 use crate::scheme::Layout;
+use crate::shape::Shape;
 use crate::space::{Axisymmetric, Space};
 use crate::tape::keep_fields;
 use std::f64::consts::PI;
@@ -49,10 +50,13 @@ fn section<const P: usize>(grid: &Grid, layout: Layout) -> Section<P> {
         let length = layout.covering(length, grid.fine);
         graded(length, grid.fine, to, grid.growth, grid.coarse)
     };
-    Section::new(breaks(1.0, grid.fine_width), breaks(2.0, grid.fine_depth))
+    Section::new(
+        breaks(1.0, grid.fine_width),
+        breaks(grid.shape.height(), grid.fine_depth),
+    )
 }
 
-/// Lay `grid` over a unit sphere of the given material. `N` must be $(P+1)^2$.
+/// Lay `grid` over its body, of radius one and the given material. `N` must be $(P+1)^2$.
 pub fn build<const P: usize, const N: usize>(
     grid: &Grid,
     layout: Layout,
@@ -64,7 +68,10 @@ pub fn build<const P: usize, const N: usize>(
     let columns = section.r.cells();
     let fitted = |c: usize| {
         let (r, z) = (section.r.cell(c % columns), section.z.cell(c / columns));
-        clip_cell(r, z, grid.points_per_direction)
+        match grid.shape {
+            Shape::Sphere => clip_cell(r, z, grid.points_per_direction),
+            Shape::Cylinder { .. } => whole_cell(r, z, grid.points_per_direction),
+        }
     };
     let clipped: Vec<Vec<SectionPoint>> = match layout {
         Layout::Fitted => (0..section.cells()).map(fitted).collect(),
@@ -96,7 +103,13 @@ pub fn build<const P: usize, const N: usize>(
     });
     let recip_mass = recip_mass(&mass, section.r.functions());
     let mut contact = Contact::new(section.offsets(), contact_tolerance);
-    for (p, height) in surface(&section, layout) {
+    let outline = match grid.shape {
+        Shape::Sphere => surface(&section, layout),
+        Shape::Cylinder { length } => (cylinder(&section, length).into_iter())
+            .map(|p| (p, p.z))
+            .collect(),
+    };
+    for (p, height) in outline {
         let (first, values) = section.interpolate::<N>(p.r, p.z);
         contact.push(first, values, height, p.r);
     }
@@ -122,7 +135,7 @@ pub fn build<const P: usize, const N: usize>(
         points,
         contact,
         recip_mass,
-        markers: [0.0, 1.0, 2.0].map(marker),
+        markers: [0.0, 0.5, 1.0].map(|share| marker(share * grid.shape.height())),
         places,
         copies: 1.0,
         mass,
@@ -155,6 +168,21 @@ fn surface<const P: usize>(section: &Section<P>, layout: Layout) -> Vec<(Surface
     points.into_iter().map(|p| (p, p.z - lowest)).collect()
 }
 
+/// Surface points of a cylinder, two a cell: from the axis along the end that meets the wall, up its side and back to the axis.
+fn cylinder<const P: usize>(section: &Section<P>, length: f64) -> Vec<SurfacePoint> {
+    let halves = |cells: Vec<(f64, f64)>| -> Vec<f64> {
+        let cells = cells.into_iter();
+        cells.flat_map(|(a, b)| [a, 0.5 * (a + b)]).collect()
+    };
+    let across = halves((0..section.r.cells()).map(|c| section.r.cell(c)).collect());
+    let up = halves((0..section.z.cells()).map(|c| section.z.cell(c)).collect());
+    let end = across.iter().map(|&r| SurfacePoint { r, z: 0.0 });
+    let side = up.iter().map(|&z| SurfacePoint { r: 1.0, z });
+    let back = [1.0].into_iter().chain(across.iter().rev().copied());
+    let back = back.map(|r| SurfacePoint { r, z: length });
+    end.chain(side).chain(back).collect()
+}
+
 /// Reciprocal masses; the first column of nodes lies on the axis, where the radial component is fixed.
 fn recip_mass(mass: &[f64], columns: usize) -> Vec<[f64; 2]> {
     mass.iter()
@@ -176,6 +204,7 @@ mod tests {
 
     fn grid() -> Grid {
         Grid {
+            shape: crate::shape::Shape::Sphere,
             degree: 2,
             points_per_direction: 2,
             fine: 0.05,

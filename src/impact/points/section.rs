@@ -76,6 +76,12 @@ pub fn clip_cell((r0, r1): (f64, f64), (z0, z1): (f64, f64), n: usize) -> Vec<Se
     }
 }
 
+/// Quadrature of a whole cell.
+#[must_use]
+pub fn whole_cell((r0, r1): (f64, f64), z: (f64, f64), n: usize) -> Vec<SectionPoint> {
+    fill(&gauss(n), &[r0, r1], |_| z, false)
+}
+
 /// Half chord of the unit circle at distance `x` from its centre.
 fn chord(x: f64) -> f64 {
     (1.0 - x * x).max(0.0).sqrt()

@@ -94,8 +94,8 @@ where
     fn kick(&mut self, dt: f64) -> Touch {
         self.old.copy_from_slice(&self.v);
         let recip_mass = &self.model.recip_mass;
-        for (v, (force, weight)) in self.v.iter_mut().zip(self.force.iter().zip(recip_mass)) {
-            push(v, dt, force, weight);
+        for (n, v) in self.v.iter_mut().enumerate() {
+            push(v, dt, &self.force[n], &recip_mass[n]);
         }
         let travel = self.transfer.travel(&self.u);
         let contact = &mut self.model.contact;
@@ -131,9 +131,10 @@ where
 
     /// Displacements at the end of a shortest step.
     fn drift(&mut self, dt: f64) {
-        for (u, v) in self.u.iter_mut().zip(&self.v) {
-            for (u, v) in u.as_mut().iter_mut().zip(v.as_ref()) {
-                *u += dt * v;
+        for (n, u) in self.u.iter_mut().enumerate() {
+            let v = self.v[n].as_ref();
+            for (k, u) in u.as_mut().iter_mut().enumerate() {
+                *u += dt * v[k];
             }
         }
         self.time += dt;

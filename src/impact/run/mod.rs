@@ -251,7 +251,7 @@ where
         let squared: f64 = self.incident().as_ref().iter().map(|v| v * v).sum();
         Frame {
             kinetic: 0.5 * self.mass * squared,
-            height: 2.0,
+            height: self.plan.grid.shape.height(),
             ..Frame::default()
         }
     }
@@ -266,7 +266,7 @@ where
     /// Spread into a sheet that has no height left to fall and hardly falls: it will not come back.
     fn is_flat(&self) -> bool {
         let tolerance = self.plan.tolerance;
-        let left = 1.0 + self.mean(&self.u, S::NORMAL);
+        let left = 0.5 * self.plan.grid.shape.height() + self.mean(&self.u, S::NORMAL);
         let sinking = -self.mean(&self.v, S::NORMAL) / self.speed;
         left < tolerance && (0.0..0.5 * tolerance).contains(&sinking)
     }

@@ -77,7 +77,7 @@ where
     /// What lies below the wall although nothing can, as a reason to stop. Only bodies that are flattened fold over or lose
     /// surface points, so only they are searched.
     fn below_the_wall(&self) -> Option<String> {
-        let sunk = -1.0 - self.mean(&self.u, S::NORMAL);
+        let sunk = -0.5 * self.plan.grid.shape.height() - self.mean(&self.u, S::NORMAL);
         if sunk > self.plan.tolerance {
             return Some(format!("the centre of mass is {sunk:e} R below the wall"));
         }
@@ -108,7 +108,10 @@ where
                     .map(|(n, w)| w * self.u[*n].as_ref()[axis])
                     .sum()
             };
-            let rest = if axis == S::NORMAL { 2.0 } else { 0.0 };
+            let rest = match axis == S::NORMAL {
+                true => self.plan.grid.shape.height(),
+                false => 0.0,
+            };
             let distance = rest + along(north) - along(south);
             squared += distance * distance;
         }
@@ -176,6 +179,7 @@ where
             contact_end: self.contact_end,
             exit_speed,
             speed: self.speed * self.plan.angle.cos(),
+            shape: self.plan.grid.shape,
             sliding,
             closure: self.closure,
             eroded: self.erosion.volume() / self.mass,

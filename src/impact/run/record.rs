@@ -1,12 +1,13 @@
 //! Record of a run: what is kept at every output, and how it becomes a curve and its figures in SI units.
 
 use crate::curve::{
-    Curve, Heating, Impact, MapPoint, Part, Particle, ParticleMap, Sample, Status, Summary,
-    Tangential,
+    Curve, Cylinder, Heating, Impact, MapPoint, Part, Particle, ParticleMap, Sample, Status,
+    Summary, Tangential,
 };
 use crate::impact::kernel::Warmth;
 use crate::material::{Material, ReferenceUnits};
 use crate::plan::Plan;
+use crate::shape::Shape;
 use crate::tape::keep_fields;
 use crate::unit::engineering;
 
@@ -123,6 +124,8 @@ pub struct Record {
     pub exit_speed: f64,
     /// Normal component of the impact velocity.
     pub speed: f64,
+    /// Shape before the impact.
+    pub shape: Shape,
     /// Motion along the wall, where there can be any.
     pub sliding: Option<Sliding>,
     /// Largest energy imbalance over the incident kinetic energy.
@@ -255,9 +258,10 @@ impl Record {
             Err(format!(
                 "restitution {restitution:e} is not from 0 to {most}"
             ))
-        } else if !(displacement > 0.0 && displacement <= 1.0 + tolerance) {
+        } else if !(displacement > 0.0 && displacement <= 0.5 * self.shape.height() + tolerance) {
             Err(format!(
-                "largest displacement {displacement:e} R is not above 0 and within R: the centre of mass would be below the wall"
+                "largest displacement {displacement:e} R is not above 0 and within {} R: the centre of mass would be below the wall",
+                0.5 * self.shape.height()
             ))
         } else if !(force > 0.0 && force.is_finite()) {
             Err(format!("largest force {force:e} E R^2 is not above 0"))
@@ -268,6 +272,26 @@ impl Record {
         } else {
             Ok(())
         }
+    }
+
+    /// Length, largest diameter, and diameter at a fifth of the initial length above the foot, of a cylinder at the end.
+    fn cylinder(&self) -> Option<[f64; 3]> {
+        let Shape::Cylinder { length } = self.shape else {
+            return None;
+        };
+        let outline = &self.rebound.outline;
+        let low = outline.iter().fold(f64::INFINITY, |z, p| z.min(p.1));
+        let high = outline.iter().fold(f64::NEG_INFINITY, |z, p| z.max(p.1));
+        let widest = outline.iter().fold(0.0, |r: f64, p| r.max(p.0));
+        let height = low + 0.2 * length;
+        // the side, not the ends: the outermost crossing of that height
+        let crossings = outline.windows(2).filter_map(|pair| {
+            let ((r0, z0), (r1, z1)) = (pair[0], pair[1]);
+            let between = (z0 - height) * (z1 - height) <= 0.0 && z0 != z1;
+            between.then(|| r0 + (r1 - r0) * (height - z0) / (z1 - z0))
+        });
+        let there = crossings.fold(f64::NAN, f64::max);
+        Some([high - low, 2.0 * widest, 2.0 * there])
     }
 
     /// What a reader of the figures has to know.
@@ -298,7 +322,7 @@ impl Record {
     fn resting_height(&self) -> f64 {
         if self.plastic_strain == 0.0 && self.eroded == 0.0 {
             // a body that has not yielded rests as the sphere it was; the vibration it is left with does not average to that
-            return 2.0;
+            return self.shape.height();
         }
         let end = self.frames.last().map_or(0.0, |f| f.time);
         let span = end - self.contact_end;
@@ -315,7 +339,7 @@ impl Record {
         if weight > 0.0 {
             sum / weight
         } else {
-            self.frames.last().map_or(2.0, |f| f.height)
+            self.frames.last().map_or(f64::NAN, |f| f.height)
         }
     }
 
@@ -349,7 +373,8 @@ impl Record {
         }
         let incident = self.frames[0].kinetic;
         let last = &self.frames[self.frames.len() - 1];
-        let least_height = 2.0 - self.largest(|f| 2.0 - f.height) * like.displacement();
+        let whole = self.shape.height();
+        let least_height = whole - self.largest(|f| whole - f.height) * like.displacement();
         let height = |found: f64| if self.has_poles { found } else { f64::NAN };
         let summary = Summary {
             velocity_m_s: plan.velocity,
@@ -359,8 +384,8 @@ impl Record {
             max_centre_displacement_m: self.largest(|f| f.centre_displacement) * length,
             residual_displacement_m: self.at(self.contact_end, |f| f.displacement) * length,
             contact_time_s: self.contact_end * time,
-            compression_ratio: 1.0 - 0.5 * height(self.resting_height()),
-            height_at_max_compression_ratio: 0.5 * height(least_height),
+            compression_ratio: 1.0 - height(self.resting_height()) / whole,
+            height_at_max_compression_ratio: height(least_height) / whole,
             equivalent_plastic_strain: self.plastic_strain,
             plastic_work_ratio: last.plastic / incident,
             energy_closure: self.closure,
@@ -379,7 +404,12 @@ impl Record {
                 }
             }),
             tangential: self.sliding.map(|s| s.figures(radius, units.speed())),
-            particle: Some(Particle::of(material, radius)),
+            cylinder: self.cylinder().map(|[length, foot, fifth]| Cylinder {
+                final_length_m: length * radius,
+                foot_diameter_m: foot * radius,
+                diameter_at_fifth_m: fifth * radius,
+            }),
+            particle: Some(Particle::of_shape(material, radius, self.shape)),
             warnings: self.warnings(plan),
             status: self.status.clone(),
         };

@@ -244,8 +244,8 @@ impl<S: Space, W: Wall<S>> LocalStep<S, W> {
 /// Velocity gained by a node in `dt`.
 #[inline(always)]
 pub fn push<V: AsRef<[f64]> + AsMut<[f64]>>(v: &mut V, dt: f64, force: &V, recip_mass: &V) {
-    let components = force.as_ref().iter().zip(recip_mass.as_ref());
-    for (v, (f, w)) in v.as_mut().iter_mut().zip(components) {
-        *v += dt * f * w;
+    let (force, recip_mass) = (force.as_ref(), recip_mass.as_ref());
+    for (k, v) in v.as_mut().iter_mut().enumerate() {
+        *v += dt * force[k] * recip_mass[k];
     }
 }

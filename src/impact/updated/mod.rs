@@ -19,6 +19,7 @@ use crate::lanes::Lanes;
 use crate::material::stress::{Constitutive, Kinematics, Response};
 use crate::plan::Plan;
 use crate::scheme::{Layout, TimeStep, Transfer};
+use crate::shape::Shape;
 use crate::space::{Axisymmetric, Space, Symmetric};
 use std::f64::consts::PI;
 
@@ -401,6 +402,7 @@ impl<'a, M: Constitutive<Axisymmetric>, const P: usize, const N: usize> Updated<
             contact_end: self.contact_end,
             exit_speed: self.mean(|p| p.velocity[1]),
             speed: self.speed,
+            shape: Shape::Sphere,
             sliding: None,
             // all that is missing is put down to the transfers; they are not audited one by one
             closure: 0.0,

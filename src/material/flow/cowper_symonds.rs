@@ -46,36 +46,51 @@ flow_stress! {
 }
 
 impl CowperSymonds {
+    /// Flow stress at rest and its slope.
+    #[inline(always)]
+    fn rest(&self, strain: f64) -> [f64; 2] {
+        [self.strength + self.modulus * strain, self.modulus]
+    }
+
+    /// Rate factor of an increment in `dt` and its derivative.
+    #[inline(always)]
+    fn factor(&self, increment: f64, dt: f64) -> [f64; 2] {
+        if increment > 0.0 && dt > 0.0 {
+            let power = self.exponent.recip();
+            let rise = (increment / (self.rate * dt)).powf(power);
+            [1.0 + rise, power * rise / increment]
+        } else {
+            [1.0, 0.0]
+        }
+    }
+
     /// Flow stress at a `strain` that grew by the increment in `dt`, and its whole derivative.
     #[inline(always)]
     fn at(&self, strain: f64, increment: f64, dt: f64) -> [f64; 2] {
-        let rest = self.strength + self.modulus * strain;
-        if !(increment > 0.0 && dt > 0.0) {
-            return [rest, self.modulus];
-        }
-        let power = self.exponent.recip();
-        let rise = (increment / (self.rate * dt)).powf(power);
-        let growth = power * rise / increment;
-        [
-            rest * (1.0 + rise),
-            self.modulus * (1.0 + rise) + rest * growth,
-        ]
+        let ([rest, slope], [factor, growth]) = (self.rest(strain), self.factor(increment, dt));
+        [rest * factor, slope * factor + rest * growth]
     }
 
+    #[inline(always)]
     fn length(&self, norm: f64, stiffness: f64, strain: f64, dt: f64) -> f64 {
         if dt == 0.0 {
             // nothing flows in no time
             return 0.0;
         }
-        let [rest, _] = self.at(strain, 0.0, dt);
-        rate::length_of_return(norm, stiffness, rest, |increment| {
-            self.at(strain + increment, increment, dt)
-        })
+        let hardening = |strain: f64| self.rest(strain);
+        let factor = |increment: f64| self.factor(increment, dt);
+        rate::length_of_return(
+            [norm, stiffness, strain],
+            hardening(strain),
+            hardening,
+            factor,
+        )
     }
 }
 
 impl FlowStress for CowperSymonds {
     type Memory = ();
+    const COST: f64 = 4.8;
 
     #[inline(always)]
     fn stress(&self, strain: Lanes, increment: Lanes, dt: f64, (): &()) -> Lanes {
@@ -101,6 +116,7 @@ impl FlowStress for CowperSymonds {
         (): &(),
     ) -> Lanes {
         let (norm, stiffness, strain) = (norm.array(), stiffness.array(), strain.array());
-        Lanes::new([0, 1, 2, 3].map(|k| self.length(norm[k], stiffness[k], strain[k], dt)))
+        let at = |k: usize| self.length(norm[k], stiffness[k], strain[k], dt);
+        Lanes::new([at(0), at(1), at(2), at(3)])
     }
 }

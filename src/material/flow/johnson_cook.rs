@@ -1,7 +1,7 @@
 //! Johnson and Cook's flow stress (1983), with the adiabatic heating of plastic work or at room temperature:
 //!
 //! $$ \sigma_y = (Y + B \varepsilon_p^n) \left(1 + C \ln \max(1, \dot\varepsilon_p / \dot\varepsilon_0)\right)
-//!    \left(1 - \Theta^m\right), \qquad \Theta = \frac{T - T_0}{T_m - T_0}, \qquad \rho c\ \dot T = \beta\ \dot w_p $$
+//!    \left(1 - \theta^m\right), \qquad \theta = \frac{T - T_0}{T_m - T_0}, \qquad \rho c\ \dot T = \beta\ \dot w_p $$
 //!
 //! Below the reference rate the logarithm is held at 0: slower flow is no softer than at the reference rate. From the melting
 //! temperature on there is no strength. The body begins at room temperature $T_0$, and no heat is conducted: a diffusion length
@@ -149,17 +149,29 @@ flow_stress! {
 }
 
 impl IsothermalJohnsonCook {
+    /// Flow stress at rest and its slope.
+    #[inline(always)]
+    fn rest(&self, strain: f64) -> [f64; 2] {
+        power(self.strength, self.coefficient, self.exponent, strain)
+    }
+
+    /// Rate factor of an increment in `dt` and its derivative.
+    #[inline(always)]
+    fn factor(&self, increment: f64, dt: f64) -> [f64; 2] {
+        let slowest = self.rate * dt;
+        if increment > slowest && dt > 0.0 {
+            let factor = 1.0 + self.sensitivity * (increment / slowest).ln();
+            [factor, self.sensitivity / increment]
+        } else {
+            [1.0, 0.0]
+        }
+    }
+
     /// Flow stress at a `strain` that grew by the increment in `dt`, and its whole derivative.
     #[inline(always)]
     fn at(&self, strain: f64, increment: f64, dt: f64) -> [f64; 2] {
-        let [rest, hardening] = power(self.strength, self.coefficient, self.exponent, strain);
-        let slowest = self.rate * dt;
-        if !(increment > slowest && dt > 0.0) {
-            return [rest, hardening];
-        }
-        let factor = 1.0 + self.sensitivity * (increment / slowest).ln();
-        let growth = self.sensitivity / increment;
-        [rest * factor, hardening * factor + rest * growth]
+        let ([rest, slope], [factor, growth]) = (self.rest(strain), self.factor(increment, dt));
+        [rest * factor, slope * factor + rest * growth]
     }
 
     /// Length of a return with the share `left` of the strength at room temperature.
@@ -169,15 +181,23 @@ impl IsothermalJohnsonCook {
             // nothing flows in no time
             return 0.0;
         }
-        let [rest, _] = self.at(strain, 0.0, dt);
-        rate::length_of_return(norm, stiffness, left * rest, |increment| {
-            self.at(strain + increment, increment, dt).map(|x| left * x)
-        })
+        let hardening = |strain: f64| {
+            let [rest, slope] = self.rest(strain);
+            [left * rest, left * slope]
+        };
+        let factor = |increment: f64| self.factor(increment, dt);
+        rate::length_of_return(
+            [norm, stiffness, strain],
+            hardening(strain),
+            hardening,
+            factor,
+        )
     }
 }
 
 impl FlowStress for IsothermalJohnsonCook {
     type Memory = ();
+    const COST: f64 = 5.9;
 
     #[inline(always)]
     fn stress(&self, strain: Lanes, increment: Lanes, dt: f64, (): &()) -> Lanes {
@@ -203,7 +223,8 @@ impl FlowStress for IsothermalJohnsonCook {
         (): &(),
     ) -> Lanes {
         let (norm, stiffness, strain) = (norm.array(), stiffness.array(), strain.array());
-        Lanes::new([0, 1, 2, 3].map(|k| self.length(1.0, norm[k], stiffness[k], strain[k], dt)))
+        let at = |k: usize| self.length(1.0, norm[k], stiffness[k], strain[k], dt);
+        Lanes::new([at(0), at(1), at(2), at(3)])
     }
 }
 
@@ -245,6 +266,7 @@ impl JohnsonCook {
 impl FlowStress for JohnsonCook {
     /// Temperature above room temperature, K.
     type Memory = Lanes;
+    const COST: f64 = 6.8;
 
     #[inline(always)]
     fn stress(&self, strain: Lanes, increment: Lanes, dt: f64, rise: &Lanes) -> Lanes {
@@ -272,10 +294,8 @@ impl FlowStress for JohnsonCook {
     ) -> Lanes {
         let (norm, stiffness, strain) = (norm.array(), stiffness.array(), strain.array());
         let (cold, rise) = (self.at_room(), rise.array());
-        Lanes::new(
-            [0, 1, 2, 3]
-                .map(|k| cold.length(self.left(rise[k]), norm[k], stiffness[k], strain[k], dt)),
-        )
+        let at = |k: usize| cold.length(self.left(rise[k]), norm[k], stiffness[k], strain[k], dt);
+        Lanes::new([at(0), at(1), at(2), at(3)])
     }
 
     fn heat_share(&self) -> f64 {

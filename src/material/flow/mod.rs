@@ -56,6 +56,8 @@ pub const YIELD_STRENGTH: Constant = Constant {
 pub trait FlowStress: Constants + Send + Sync + 'static {
     /// What a point remembers besides its plastic strain (a temperature, say); `()` takes no room.
     type Memory: Copy + Default + fmt::Debug + Keep + Send + Sync;
+    /// Time of an impact over that of a perfectly plastic one of as many points and steps (guide, *Measured*).
+    const COST: f64 = 1.0;
     /// Newton steps that solve the return exactly (1 where the flow stress is linear in the increment).
     const NEWTON_STEPS: usize = 1;
 
@@ -194,6 +196,16 @@ impl FlowVisitor for Contradiction {
     }
 }
 
+/// [`FlowStress::COST`].
+struct Cost;
+
+impl FlowVisitor for Cost {
+    type Output = f64;
+    fn visit<F: FlowStress>(self, _: F) -> f64 {
+        F::COST
+    }
+}
+
 /// [`FlowStress::heat_to_melt`].
 struct HeatToMelt;
 
@@ -225,6 +237,12 @@ impl Flow {
     #[must_use]
     pub fn after(self, past: Past) -> (f64, Option<f64>) {
         self.visit(After(past))
+    }
+
+    /// Time of an impact over that of a perfectly plastic one of as many points and steps.
+    #[must_use]
+    pub fn cost(self) -> f64 {
+        self.visit(Cost)
     }
 
     /// A constant that another one contradicts, with what is allowed beside that one.
@@ -294,3 +312,6 @@ impl fmt::Display for Flow {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -96,6 +96,7 @@ impl PowerHardening {
 
 impl FlowStress for PowerHardening {
     type Memory = ();
+    const COST: f64 = 5.0;
 
     #[inline(always)]
     fn stress(&self, strain: Lanes, _: Lanes, _: f64, (): &()) -> Lanes {
@@ -119,7 +120,8 @@ impl FlowStress for PowerHardening {
         (): &(),
     ) -> Lanes {
         let (norm, stiffness, strain) = (norm.array(), stiffness.array(), strain.array());
-        Lanes::new([0, 1, 2, 3].map(|k| self.length(norm[k], stiffness[k], strain[k])))
+        let at = |k: usize| self.length(norm[k], stiffness[k], strain[k]);
+        Lanes::new([at(0), at(1), at(2), at(3)])
     }
 }
 
