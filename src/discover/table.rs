@@ -297,7 +297,7 @@ impl Table {
             }
             if let Some((_, least, most, allowed)) = BOUNDS.iter().find(|bound| bound.0 == name) {
                 let beyond =
-                    |value: &f64| !value.is_nan() && !(least.allows(*value) && value <= most);
+                    |value: &f64| !(value.is_nan() || least.allows(*value) && value <= most);
                 if let Some(row) = values.iter().position(beyond) {
                     return Err(refuse(
                         &heads[at],

@@ -159,11 +159,12 @@ const FIGURES: [&str; 6] = [
     "equivalent_plastic_strain",
     "plastic_work_ratio",
 ];
-const ABSENT: [&str; 6] = [
+const ABSENT: [&str; 7] = [
     "hardening_",
     "saturation_",
     "rate_",
-    "thermal_",
+    "doubling_",
+    "softening_",
     "angle_deg",
     "friction",
 ];

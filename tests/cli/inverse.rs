@@ -165,6 +165,13 @@ fn what_cannot_be_used_is_one_clear_error_and_nothing_is_written() {
     assert!(with("0.343", "0.6").contains("poisson_ratio"));
     assert!(with("128GPa", "128").contains("--young"));
     assert!(with("250um", "250m").contains("check the unit"));
+    let shipped = concat!(env!("CARGO_MANIFEST_DIR"), "/cases/thesis-4-4.toml");
+    let case = std::fs::read_to_string(shipped).unwrap();
+    let oblique = case.replace("velocities =", "angle = \"30 deg\"\nvelocities =");
+    std::fs::write(here.join("oblique.toml"), oblique).unwrap();
+    let output = impactlaw(here, &["inverse", "m.csv", "--case", "oblique.toml"]);
+    assert_eq!(output.status.code(), Some(2), "{}", message(&output));
+    assert!(message(&output).contains("normal impact of a sphere"));
     assert!(!here.join("out").exists());
 }
 

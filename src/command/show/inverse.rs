@@ -302,18 +302,21 @@ impl Report {
             );
         }
         let agreement = &self.agreement;
-        let _ = match agreement.deviations_from_scatter {
-            true => writeln!(
+        let rows = match self.row.len() {
+            1 => "1 row".to_owned(),
+            n => format!("{n} rows"),
+        };
+        let freedom = agreement.degrees_of_freedom;
+        let _ = match (agreement.deviations_from_scatter, freedom) {
+            (true, _) => writeln!(text, "{rows}; their scatter is the uncertainty"),
+            (_, 0) => writeln!(
                 text,
-                "{} rows; their scatter is the uncertainty",
-                self.row.len()
+                "{rows}: no more than is sought, whether they agree cannot be told"
             ),
-            false => writeln!(
+            _ => writeln!(
                 text,
-                "{} rows, chi-square {} of {} degrees of freedom",
-                self.row.len(),
-                significant(agreement.chi_square, 3),
-                agreement.degrees_of_freedom
+                "{rows}, chi-square {} of {freedom} degrees of freedom",
+                significant(agreement.chi_square, 3)
             ),
         };
         let _ = writeln!(
