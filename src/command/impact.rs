@@ -1,7 +1,7 @@
 //! Impact command: simulates every speed of a case in parallel and writes a folder for each.
 
 use crate::case::Case;
-use crate::command::{Command, Context, Verdict, impact_folder, output_folder};
+use crate::command::{CHECKPOINT_FILE, Command, Context, Verdict, impact_folder, output_folder};
 use crate::curve::Status;
 use crate::impact::{Simulated, simulate_kept};
 use crate::plan::plans;
@@ -13,9 +13,6 @@ use rayon::prelude::*;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
-
-/// The file a run under way is kept in, beside the results to come; gone when they are there.
-pub const CHECKPOINT_FILE: &str = "checkpoint.bin";
 
 /// Simulate the impacts of a case: `curve.csv` and `summary.json` for each speed.
 #[derive(Debug, Args)]

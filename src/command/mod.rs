@@ -43,6 +43,9 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+/// The file a run under way is kept in, beside the results to come; gone when they are there.
+pub const CHECKPOINT_FILE: &str = "checkpoint.bin";
+
 /// The arguments of a verb; their doc comment is its description in the help.
 pub trait Command: clap::Args {
     /// Command lines that work in the root of the repository, for the end of the verb's help.

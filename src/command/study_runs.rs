@@ -1,7 +1,6 @@
 //! Runs of a study: which there are, in which folders they lie, and how those that are missing are made.
 
-use super::impact::CHECKPOINT_FILE;
-use super::{Context, output_folder};
+use super::{CHECKPOINT_FILE, Context, output_folder};
 use crate::curve::Summary;
 use crate::files::Claim;
 use crate::impact::simulate_kept;
