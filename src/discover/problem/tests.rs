@@ -1,3 +1,5 @@
+//! Groups of small tables, and what of a table is refused.
+
 use super::*;
 use std::path::Path;
 
