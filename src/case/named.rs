@@ -27,8 +27,6 @@ macro_rules! materials {
 }
 
 materials! {
-    "aa6061-t6",
-    "armco-iron",
     "ofhc-copper",
     "ofhc-copper-static",
     "ofhc-copper-taylor",

@@ -18,7 +18,7 @@ const POLISH_STEPS: usize = 60;
 /// Relative fall of the cost below which polishing stops, for a law.
 pub const LAW: f64 = 1e-9;
 /// The same for one resample of many, whose spread is what counts.
-pub const RESAMPLE: f64 = 1e-6;
+pub const RESAMPLE: f64 = 1e-5;
 /// Step of the difference quotients in free numbers.
 const DIFFERENCE: f64 = 1e-6;
 

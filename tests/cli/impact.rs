@@ -140,7 +140,7 @@ fn what_no_law_holds_for_is_refused_by_name_before_the_first_step_and_nothing_is
     assert_eq!(output.status.code(), Some(2));
     let message = message(&output);
     assert!(
-        message.contains("unobtainium") && message.contains("armco-iron"),
+        message.contains("unobtainium") && message.contains("steel-4340"),
         "{message}"
     );
 }

@@ -220,7 +220,7 @@ fn studies_and_beds_have_a_plan() {
     assert!(study["runs"].as_u64().unwrap() < 480);
     assert!(study["predicted_core_s"].as_f64() > study["longest_run_core_s"].as_f64());
     let bed = plan("solder-bed.toml");
-    assert_eq!(bed["grains"], 250.0);
+    assert_eq!(bed["grains"], 220.0);
     let stages = bed["stages"].as_array().unwrap();
     assert_eq!(stages.len(), 4);
     assert_eq!(stages[1]["steps"], 2000.0);
