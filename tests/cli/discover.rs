@@ -3,7 +3,7 @@
 use crate::program::{impactlaw, message, program};
 use std::collections::HashMap;
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 const HEAD: &str = "density_kg_m3,young_modulus_Pa,yield_strength_Pa,poisson_ratio,radius_m,velocity_m_s,restitution,\
     equivalent_plastic_strain,plastic_work_ratio,max_force_N,status";
