@@ -86,12 +86,6 @@ fn other(place: &Place) -> Option<(FileKind, FileKind)> {
     let value = DeValue::Table(table.clone());
     let wrong = |kind: &FileKind| misfits(&Kind::Table(kind.table()), &value);
     let found = FILES.into_iter().min_by_key(wrong)?;
-    // a single slip is one in a file of the kind that was wanted, unless it is a table that the other kind has and this one not
-    let (here, there) = (wanted.table(), found.table());
-    let foreign = table
-        .keys()
-        .any(|key| here.key(key.get_ref()).is_none() && there.key(key.get_ref()).is_some());
-    let slips = if foreign { 0 } else { 1 };
-    let better = wrong(&found) + slips < wrong(&wanted) && own(&found) >= half.max(1);
+    let better = wrong(&found) < wrong(&wanted) && own(&found) >= half.max(1);
     better.then_some((wanted, found))
 }

@@ -122,13 +122,14 @@ impl LawAtlasArgs {
         let stem = out.file_stem().unwrap_or_default().to_string_lossy();
         let name = self.name.clone().unwrap_or_else(|| stem.into_owned());
         let case = Case::of(&name, radius, material, &[1.0], 0.02)?;
-        match slips::reasons(&case, &[]).into_iter().next() {
+        // what Poisson's ratio may be the atlas says; it has no unit
+        let mut slips = slips::reasons(&case, &[]).into_iter();
+        match slips.find(|(key, ..)| !key.ends_with("poisson_ratio")) {
             None => Ok(case),
             Some((key, _, why)) => {
                 let argument = match key.rsplit('.').next().unwrap_or_default() {
                     "density" => ("--density", &self.density),
                     "young_modulus" => ("--young", &self.young),
-                    "poisson_ratio" => ("--poisson", &self.poisson),
                     "radius" => ("--radius", &self.radius),
                     "hardening_modulus" => ("--hardening", &self.hardening),
                     _ => ("--yield", &self.strength),

@@ -58,6 +58,8 @@ impl Candidates {
         let mut all = Table {
             inputs: columns,
             figures: Vec::new(),
+            // they stand in no file
+            lines: vec![0; CANDIDATES],
             ..table.clone()
         };
         let mut kept: Vec<usize> = (0..CANDIDATES).collect();

@@ -238,9 +238,9 @@ fn a_table_that_cannot_be_used_is_one_clear_error_and_nothing_is_written() {
         ((head(), Vec::new()), "0 with status ok"),
         ((head(), good[..1].to_vec()), "1 with status ok"),
         ((head(), all(0, "")), "an empty column"),
-        ((head(), one(1, "NaN")), "`NaN` in row 4"),
-        ((head(), one(1, "steel")), "`steel` in row 4"),
-        ((head(), one(6, "NaN")), "no number in row 4"),
+        ((head(), one(1, "NaN")), "`NaN` in line 6"),
+        ((head(), one(1, "steel")), "`steel` in line 6"),
+        ((head(), one(6, "NaN")), "no number in line 6"),
         ((head(), all(6, "0.5")), "0.5 in every row"),
         ((head(), one(0, "-1")), "must be positive"),
         (
@@ -429,9 +429,9 @@ tolerance = 0.2
     // runs of two tolerances have no one error
     let mixed = STUDY.replace("tolerance = 0.2", "tolerance = [0.2, 0.1]");
     std::fs::write(here.join("mixed.toml"), mixed).unwrap();
-    let output = impactlaw(here, &["study", "mixed.toml", "-q", "--out", "out/s"]);
+    let output = impactlaw(here, &["study", "mixed.toml", "-q", "--out", "out/m"]);
     assert!(output.status.success(), "{}", message(&output));
-    let output = impactlaw(here, &["discover", "out/s"]);
+    let output = impactlaw(here, &["discover", "out/m"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(
         message(&output).contains("`tolerance`: found 0.1 to 0.2"),

@@ -194,19 +194,6 @@ fn a_file_that_is_no_toml_is_called_what_it_is() {
 }
 
 #[test]
-fn one_slip_in_a_case_is_told_as_such() {
-    let folder = tempfile::tempdir().unwrap();
-    let here = folder.path();
-    let case = "[particle]\nradius = \"1 mm\"\n[material]\ndensity = \"2700 kg/m3\"\nyoung_modulus = \"70 GPa\"\npoisson_ratio = 0.3\n[impact]\nvelocities = \"5 m/s\"\n[accuracy]\ntolerance = 0.02\n";
-    std::fs::write(here.join("case.toml"), case).unwrap();
-    let text = said(here, &["plan", "case.toml"], 2);
-    assert!(
-        text.contains("impact.velocities") && !text.contains("study file"),
-        "{text}"
-    );
-}
-
-#[test]
 fn studies_and_beds_have_a_plan() {
     let folder = tempfile::tempdir().unwrap();
     let shipped = |name: &str| format!("{}/cases/{name}", env!("CARGO_MANIFEST_DIR"));
