@@ -6,6 +6,7 @@ use crate::document::keys::Kind;
 use crate::document::misfit::misfits;
 use crate::{Error, Place};
 use std::io::ErrorKind;
+use std::path::Path;
 use toml::de::{DeTable, DeValue};
 
 /// `error`, or, where its file fits another kind of input file better than the one it was read as, what the file is.
@@ -44,9 +45,18 @@ pub fn kind_of(error: &Error) -> Option<&'static str> {
 
 /// What a file is that is no TOML file by its name and cannot be read as one.
 fn no_toml(error: &Error) -> Option<Error> {
+    let mesh = |path: &Path| {
+        let ending = path.extension().unwrap_or_default();
+        ["stl", "obj"]
+            .iter()
+            .any(|mesh| ending.eq_ignore_ascii_case(mesh))
+    };
     let path = match error {
         Error::Syntax { path, .. } => path,
-        Error::File { path, source, .. } if source.kind() == ErrorKind::InvalidData => path,
+        // files of runs are called damaged by those who read them
+        Error::File { path, source, .. } if source.kind() == ErrorKind::InvalidData => {
+            Some(path).filter(|path| mesh(path))?
+        }
         _ => return None,
     };
     let ending = path.extension()?.to_string_lossy();

@@ -349,7 +349,7 @@ mod tests {
         for (text, part) in [
             (
                 "velocity_m_s,restitution\n1,0.5\n2,1.2\n",
-                "line 3, restitution: found `1.2`",
+                "line 3, restitution`: found `1.2`",
             ),
             ("velocity_m_s,restitution\n1,1\n", "stayed elastic"),
             ("velocity_m_s,restitution\n1,0\n", "stays at the wall"),

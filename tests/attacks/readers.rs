@@ -292,6 +292,10 @@ const OTHERS: [(&str, &str); 6] = [
         "command/study_merge.rs",
         "a kept run that was just read and is copied as it is",
     ),
+    (
+        "command/study_table.rs",
+        "the first line of results, for the name of the study that they are of",
+    ),
     ("bed/filling/memory.rs", "the system's account of memory"),
     (
         "bed/record/mod.rs",
