@@ -282,7 +282,7 @@ pub const READERS: &[Reader] = &[
 ];
 
 /// Files of `src` that read, but nothing that anyone writes for the program or that it keeps.
-const OTHERS: [(&str, &str); 6] = [
+const OTHERS: [(&str, &str); 7] = [
     (
         "case/named.rs",
         "constants of materials, which are part of the program",
