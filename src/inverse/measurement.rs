@@ -380,7 +380,7 @@ mod tests {
                 "at most half",
             ),
             (
-                "velocity_m_s,flat_diameter_um\n1,200\n",
+                "velocity_m_s,flat_diameter_um\n1,201\n",
                 "check radius and unit",
             ),
             ("velocity_m_s,compression_ratio\n1,0\n", "kept its height"),
