@@ -181,7 +181,11 @@ fn everything_for_an_elastic_law_leaves_the_projections_out() {
     assert_eq!(code("native"), Some(2));
     assert!(!folder.path().join("native").exists());
     assert_eq!(code("all"), Some(0));
-    assert!(folder.path().join("all/c/solder_ball.h").exists());
+    let header = Portable::read(&folder.path().join("law.toml"), None)
+        .unwrap()
+        .identifier
+        + ".h";
+    assert!(folder.path().join("all/c").join(header).exists());
     assert!(!folder.path().join("all/native").exists());
 }
 
