@@ -11,6 +11,7 @@ use crate::law::LawFile;
 use crate::unit::{engineering, significant};
 use crate::{Error, Result};
 use clap::{Args, Subcommand};
+use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
@@ -136,28 +137,27 @@ pub fn simulate(
 /// Rows between two that `-v` tells of within a stage.
 const TOLD_EVERY: usize = 20;
 
-/// What `-v` has told of: the run and the stage under way, and the rows since.
+/// What `-v` has told of: the stage under way in each run, and the rows since. Runs of several laws go side by side.
 #[derive(Default)]
-struct Told(Mutex<(String, usize)>);
+struct Told(Mutex<BTreeMap<String, (String, usize)>>);
 
 impl Told {
     /// Tells of the first row of each stage and of one in [`TOLD_EVERY`].
     fn row(&self, what: &str, row: &Row) {
-        let stage = format!("{what}, {}", row.stage);
         // a thread that fell while telling takes nothing with it that matters
-        let mut last = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        if last.0 != stage {
-            *last = (stage, 0);
+        let mut runs = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let (stage, rows) = runs.entry(what.to_owned()).or_default();
+        if *stage != row.stage {
+            (*stage, *rows) = (row.stage.clone(), 0);
         }
-        if last.1.is_multiple_of(TOLD_EVERY) {
+        if rows.is_multiple_of(TOLD_EVERY) {
             tracing::info!(
-                "{}: row {} at {}",
-                last.0,
-                last.1 + 1,
+                "{what}, {stage}: row {} at {}",
+                *rows + 1,
                 engineering(row.time_s, "s", 3)
             );
         }
-        last.1 += 1;
+        *rows += 1;
     }
 }
 

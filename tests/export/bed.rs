@@ -22,7 +22,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 /// Steps after which rounding has not grown yet, and at the end.
-const STEPS: [usize; 2] = [50, 2000];
+const STEPS: [usize; 2] = [50, 1000];
 /// Radius over that of the settled packing at which none of its grains touches another: its deepest contact is 0.59 %
 /// of a diameter.
 const LOOSE: f64 = 0.994;

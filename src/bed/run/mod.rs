@@ -34,12 +34,16 @@ use crate::view::kinds::Names;
 use crate::view::picture::write_picture;
 use crate::view::portrait::{Cast, Portrait};
 use crate::{Error, Result};
+use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// Distance up to which neighbours are listed, over the largest radius: the best of a scan between lists that are
 /// short and lists that last.
 const SKIN: f64 = 0.15;
+/// Grains up to which the laws of a scene run side by side, each on threads of its own. A step of some hundred grains is too short
+/// to be shared by threads; beds of more would take too much memory at once.
+const SIDE_BY_SIDE: usize = 100_000;
 /// File a run under way is kept in.
 const RESTART: &str = "restart.bin";
 
@@ -103,10 +107,16 @@ pub fn run_scene(scene: &Scene, given: Option<&LawFile>, options: &Options) -> R
         true => Some(pack(scene, &mut start, options)?),
         false => None,
     };
-    let mut runs = Vec::new();
-    for (name, laws) in scene.laws.iter().zip(laws) {
-        runs.push(under_law(scene, name, laws, &start, options)?);
-    }
+    let run = |(name, laws): (&String, Vec<AnyLaw>)| under_law(scene, name, laws, &start, options);
+    let listed = scene.laws.iter().zip(laws);
+    // all of them come to an end, and the first error in the scene's order is told, whichever came first
+    let runs: Vec<Result<LawRun>> = if start.grains.len() <= SIDE_BY_SIDE {
+        let listed: Vec<_> = listed.collect();
+        listed.into_par_iter().map(run).collect()
+    } else {
+        listed.map(run).collect()
+    };
+    let runs: Vec<LawRun> = runs.into_iter().collect::<Result<_>>()?;
     let compresses = scene
         .stages
         .iter()
