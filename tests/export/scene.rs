@@ -5,6 +5,7 @@ use crate::codes::{self, assert_close, solder, succeed};
 use crate::program::{message, program};
 use impactlaw::export::scene::Code;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 /// Allowed deviation: of stresses from the largest one (root mean square), of heights and contacts from ours.
 const ALLOWED: f64 = 0.03;
@@ -126,12 +127,17 @@ fn curve(rows: &[Vec<f64>], coordination: impl Fn(usize) -> f64) -> Curve {
     curve
 }
 
-/// The scene run here.
-fn ours(scene: &Path, folder: &Path) -> Curve {
-    succeed(program(folder).arg("bed").arg(scene).arg("-o").arg(folder));
-    let names = ["height_m", "strain", "stress_Pa", "coordination"];
-    let rows = columns(&folder.join("bed/fitted/bed.csv"), &names);
-    curve(&rows, |row| rows[row][3])
+/// The scene run here, once for both codes.
+fn ours() -> &'static Curve {
+    static OURS: OnceLock<Curve> = OnceLock::new();
+    OURS.get_or_init(|| {
+        let scratch = tempfile::tempdir().unwrap();
+        let (folder, scene) = (scratch.path(), scene(scratch.path()));
+        succeed(program(folder).arg("bed").arg(scene).arg("-o").arg(folder));
+        let names = ["height_m", "strain", "stress_Pa", "coordination"];
+        let rows = columns(&folder.join("bed/fitted/bed.csv"), &names);
+        curve(&rows, |row| rows[row][3])
+    })
 }
 
 /// Exports the scene for a code; the folder it is in.
@@ -199,33 +205,33 @@ fn assert_same(theirs: &Curve, ours: &Curve, code: &str) {
     );
 }
 
-/// The scene, and the folder of its run in another code; none where that is not installed.
-fn run(code: Code, name: &str, scratch: &Path) -> Option<(PathBuf, PathBuf)> {
+/// Folder of the scene's run in another code; none where that is not installed.
+fn run(code: Code, name: &str, scratch: &Path) -> Option<PathBuf> {
     let installed = Installed::find(code)?;
     let scene = scene(scratch);
     let folder = exported(&scene, scratch, name);
     installed.build(&folder);
     let mut command = installed.command(&solder(None), &folder, 1);
     succeed(command.args(["-in", "scene.in", "-var", "rows", "20"]));
-    Some((scene, folder))
+    Some(folder)
 }
 
 #[test]
 fn an_oedometer_exported_to_lammps_is_the_one_that_runs_here() {
     let scratch = tempfile::tempdir().unwrap();
-    let Some((scene, folder)) = run(Code::Lammps, "lammps", scratch.path()) else {
+    let Some(folder) = run(Code::Lammps, "lammps", scratch.path()) else {
         return;
     };
     let names = ["height_m", "strain", "stress_Pa", "coordination"];
     let rows = columns(&folder.join("scene.csv"), &names);
     let theirs = curve(&rows, |row| rows[row][3]);
-    assert_same(&theirs, &ours(&scene, scratch.path()), "LAMMPS");
+    assert_same(&theirs, ours(), "LAMMPS");
 }
 
 #[test]
 fn an_oedometer_exported_to_liggghts_is_the_one_that_runs_here() {
     let scratch = tempfile::tempdir().unwrap();
-    let Some((scene, folder)) = run(Code::Liggghts, "liggghts", scratch.path()) else {
+    let Some(folder) = run(Code::Liggghts, "liggghts", scratch.path()) else {
         return;
     };
     let rows = columns(
@@ -239,7 +245,7 @@ fn an_oedometer_exported_to_liggghts_is_the_one_that_runs_here() {
         .filter(|pair| pair[2..].iter().any(|force| *force != 0.0));
     let coordination = 2.0 * carrying.count() as f64 / 800.0;
     let theirs = curve(&rows, |_| coordination);
-    assert_same(&theirs, &ours(&scene, scratch.path()), "LIGGGHTS");
+    assert_same(&theirs, ours(), "LIGGGHTS");
 }
 
 #[test]
