@@ -48,6 +48,13 @@ impl Lanes {
         Lanes::new([x; WIDTH])
     }
 
+    /// `f` of the number of each lane.
+    #[inline(always)]
+    #[must_use]
+    pub fn each(f: impl Fn(usize) -> f64) -> Self {
+        Lanes::new([f(0), f(1), f(2), f(3)])
+    }
+
     /// Element-wise function of one argument.
     #[inline(always)]
     #[must_use]
@@ -109,8 +116,7 @@ impl Lanes {
     #[must_use]
     pub fn where_positive(self, test: Self, other: Self) -> Self {
         let (test, a, b) = (test.array(), self.array(), other.array());
-        let pick = |k: usize| if test[k] > 0.0 { a[k] } else { b[k] };
-        Lanes::new([pick(0), pick(1), pick(2), pick(3)])
+        Lanes::each(|k| if test[k] > 0.0 { a[k] } else { b[k] })
     }
 
     /// Whether any lane is above zero.
@@ -126,8 +132,7 @@ impl Lanes {
     #[must_use]
     pub fn mul_add(self, a: Self, b: Self) -> Self {
         let (x, a, b) = (self.array(), a.array(), b.array());
-        let fused = |k: usize| x[k].mul_add(a[k], b[k]);
-        Lanes::new([fused(0), fused(1), fused(2), fused(3)])
+        Lanes::each(|k| x[k].mul_add(a[k], b[k]))
     }
 
     /// Cube root of the reciprocal, $x^{-1/3}$ for $x > 0$, by iteration from below (no library call per point).

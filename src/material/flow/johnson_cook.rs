@@ -6,11 +6,11 @@
 //! Below the reference rate the logarithm is held at 0: slower flow is no softer than at the reference rate. From the melting
 //! temperature on there is no strength. The body begins at room temperature $T_0$, and no heat is conducted: a diffusion length
 //! $\sqrt{\kappa t}$ of copper in 1 us is 10 um. The temperature in a step is that of its beginning; the rate is that of the step
-//! itself ([`super::rate`]). The share $1 - \beta$ of the plastic work stays in the material.
+//! itself ([`super::product`]). The share $1 - \beta$ of the plastic work stays in the material.
 
 use super::power_hardening::power;
-use super::{FlowStress, HARDENING_COEFFICIENT, HARDENING_EXPONENT, YIELD_STRENGTH};
-use super::{flow_stress, rate};
+use super::product::Product;
+use super::{HARDENING_COEFFICIENT, HARDENING_EXPONENT, YIELD_STRENGTH, flow_stress};
 use crate::lanes::Lanes;
 use crate::material::constant::{Absent, Constant, Dimension, Range};
 use crate::unit::significant;
@@ -148,16 +148,17 @@ flow_stress! {
     }
 }
 
-impl IsothermalJohnsonCook {
-    /// Flow stress at rest and its slope.
+impl Product for IsothermalJohnsonCook {
+    type Memory = ();
+    const COST: f64 = 5.9;
+
     #[inline(always)]
     fn rest(&self, strain: f64) -> [f64; 2] {
         power(self.strength, self.coefficient, self.exponent, strain)
     }
 
-    /// Rate factor of an increment in `dt` and its derivative.
     #[inline(always)]
-    fn factor(&self, increment: f64, dt: f64) -> [f64; 2] {
+    fn rate_factor(&self, increment: f64, dt: f64) -> [f64; 2] {
         let slowest = self.rate * dt;
         if increment > slowest && dt > 0.0 {
             let factor = 1.0 + self.sensitivity * (increment / slowest).ln();
@@ -167,64 +168,9 @@ impl IsothermalJohnsonCook {
         }
     }
 
-    /// Flow stress at a `strain` that grew by the increment in `dt`, and its whole derivative.
     #[inline(always)]
-    fn at(&self, strain: f64, increment: f64, dt: f64) -> [f64; 2] {
-        let ([rest, slope], [factor, growth]) = (self.rest(strain), self.factor(increment, dt));
-        [rest * factor, slope * factor + rest * growth]
-    }
-
-    /// Length of a return with the share `left` of the strength at room temperature.
-    #[inline(always)]
-    fn length(&self, left: f64, norm: f64, stiffness: f64, strain: f64, dt: f64) -> f64 {
-        if dt == 0.0 && self.sensitivity > 0.0 {
-            // nothing flows in no time
-            return 0.0;
-        }
-        let hardening = |strain: f64| {
-            let [rest, slope] = self.rest(strain);
-            [left * rest, left * slope]
-        };
-        let factor = |increment: f64| self.factor(increment, dt);
-        rate::length_of_return(
-            [norm, stiffness, strain],
-            hardening(strain),
-            hardening,
-            factor,
-        )
-    }
-}
-
-impl FlowStress for IsothermalJohnsonCook {
-    type Memory = ();
-    const COST: f64 = 5.9;
-
-    #[inline(always)]
-    fn stress(&self, strain: Lanes, increment: Lanes, dt: f64, (): &()) -> Lanes {
-        strain.zip(increment, |strain, increment| {
-            self.at(strain, increment, dt)[0]
-        })
-    }
-
-    #[inline(always)]
-    fn slope(&self, strain: Lanes, increment: Lanes, dt: f64, (): &()) -> Lanes {
-        strain.zip(increment, |strain, increment| {
-            self.at(strain, increment, dt)[1]
-        })
-    }
-
-    #[inline(always)]
-    fn length_of_return(
-        &self,
-        norm: Lanes,
-        stiffness: Lanes,
-        strain: Lanes,
-        dt: f64,
-        (): &(),
-    ) -> Lanes {
-        let (norm, stiffness, strain) = (norm.array(), stiffness.array(), strain.array());
-        let at = |k: usize| self.length(1.0, norm[k], stiffness[k], strain[k], dt);
-        Lanes::new([at(0), at(1), at(2), at(3)])
+    fn knows_rates(&self) -> bool {
+        self.sensitivity > 0.0
     }
 }
 
@@ -248,54 +194,45 @@ impl JohnsonCook {
             rate,
         }
     }
-
-    /// Share of the strength that is left `rise` above room temperature.
-    #[inline(always)]
-    fn left(&self, rise: f64) -> f64 {
-        let homologous = rise / (self.melting - self.room);
-        if homologous >= 1.0 {
-            0.0
-        } else if self.softening == 1.0 {
-            1.0 - homologous
-        } else {
-            1.0 - homologous.powf(self.softening)
-        }
-    }
 }
 
-impl FlowStress for JohnsonCook {
+impl Product for JohnsonCook {
     /// Temperature above room temperature, K.
     type Memory = Lanes;
     const COST: f64 = 6.8;
 
     #[inline(always)]
-    fn stress(&self, strain: Lanes, increment: Lanes, dt: f64, rise: &Lanes) -> Lanes {
-        self.at_room().stress(strain, increment, dt, &()) * rise.map(|rise| self.left(rise))
+    fn rest(&self, strain: f64) -> [f64; 2] {
+        self.at_room().rest(strain)
     }
 
     #[inline(always)]
-    fn slope(&self, strain: Lanes, increment: Lanes, dt: f64, rise: &Lanes) -> Lanes {
-        self.at_room().slope(strain, increment, dt, &()) * rise.map(|rise| self.left(rise))
+    fn rate_factor(&self, increment: f64, dt: f64) -> [f64; 2] {
+        self.at_room().rate_factor(increment, dt)
     }
 
     #[inline(always)]
-    fn remember(&self, _: Lanes, _: f64, work: Lanes, rise: &mut Lanes) {
+    fn knows_rates(&self) -> bool {
+        self.at_room().knows_rates()
+    }
+
+    #[inline(always)]
+    fn left(&self, rise: &Lanes) -> Lanes {
+        rise.map(|rise| {
+            let homologous = rise / (self.melting - self.room);
+            if homologous >= 1.0 {
+                0.0
+            } else if self.softening == 1.0 {
+                1.0 - homologous
+            } else {
+                1.0 - homologous.powf(self.softening)
+            }
+        })
+    }
+
+    #[inline(always)]
+    fn remember(&self, work: Lanes, rise: &mut Lanes) {
         *rise += work * (self.share / self.heat);
-    }
-
-    #[inline(always)]
-    fn length_of_return(
-        &self,
-        norm: Lanes,
-        stiffness: Lanes,
-        strain: Lanes,
-        dt: f64,
-        rise: &Lanes,
-    ) -> Lanes {
-        let (norm, stiffness, strain) = (norm.array(), stiffness.array(), strain.array());
-        let (cold, rise) = (self.at_room(), rise.array());
-        let at = |k: usize| cold.length(self.left(rise[k]), norm[k], stiffness[k], strain[k], dt);
-        Lanes::new([at(0), at(1), at(2), at(3)])
     }
 
     fn heat_share(&self) -> f64 {
@@ -312,11 +249,8 @@ impl FlowStress for JohnsonCook {
 
     fn contradiction(&self) -> Option<(Constant, String)> {
         let allowed = || {
-            format!(
-                "must be above `{}` ({} K)",
-                ROOM_TEMPERATURE.key,
-                significant(self.room, 5)
-            )
+            let room = significant(self.room, 5);
+            format!("must be above `{}` ({room} K)", ROOM_TEMPERATURE.key)
         };
         (self.melting <= self.room).then(|| (MELTING_TEMPERATURE, allowed()))
     }

@@ -9,7 +9,7 @@ mod johnson_cook;
 mod linear_hardening;
 mod perfectly_plastic;
 mod power_hardening;
-mod rate;
+mod product;
 mod voce_hardening;
 mod written;
 
@@ -58,7 +58,7 @@ pub trait FlowStress: Constants + Send + Sync + 'static {
     type Memory: Copy + Default + fmt::Debug + Keep + Send + Sync;
     /// Time of an impact over that of a perfectly plastic one of as many points and steps (guide, *Measured*).
     const COST: f64 = 1.0;
-    /// Newton steps that solve the return exactly (1 where the flow stress is linear in the increment).
+    /// Newton steps of a return at most; 1 is exact where the flow stress is linear in the increment.
     const NEWTON_STEPS: usize = 1;
 
     /// Flow stress.
@@ -109,11 +109,22 @@ pub trait FlowStress: Constants + Send + Sync + 'static {
             let end = strain + increment;
             let misfit = norm - stiffness * length - self.stress(end, increment, dt, memory) * ROOT;
             let slope = stiffness + self.slope(end, increment, dt, memory) * (2.0 / 3.0);
-            length += misfit * slope.recip();
+            let mut step = misfit * slope.recip();
+            if Self::NEWTON_STEPS > 1 {
+                // points that do not yield stay where they are, and keep no others waiting
+                step = step.map(|step| step.max(0.0));
+            }
+            length += step;
+            if !(step - length * ENOUGH).any_positive() {
+                break;
+            }
         }
         length
     }
 }
+
+/// Step of a return, over the length so far, after which the next changes nothing.
+const ENOUGH: f64 = 1e-9;
 
 /// $\sqrt{2/3}$: deviator norm over equivalent stress, equivalent plastic strain over length of return.
 pub const ROOT: f64 = 0.816_496_580_927_726;

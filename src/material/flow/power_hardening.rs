@@ -120,8 +120,7 @@ impl FlowStress for PowerHardening {
         (): &(),
     ) -> Lanes {
         let (norm, stiffness, strain) = (norm.array(), stiffness.array(), strain.array());
-        let at = |k: usize| self.length(norm[k], stiffness[k], strain[k]);
-        Lanes::new([at(0), at(1), at(2), at(3)])
+        Lanes::each(|k| self.length(norm[k], stiffness[k], strain[k]))
     }
 }
 

@@ -1,6 +1,6 @@
 //! Saturating hardening of Voce (1948): $\sigma_y = Y + Q (1 - e^{-b \varepsilon_p})$.
 
-use super::{FlowStress, ROOT, YIELD_STRENGTH, flow_stress};
+use super::{FlowStress, YIELD_STRENGTH, flow_stress};
 use crate::lanes::Lanes;
 use crate::material::constant::{Absent, Constant, Dimension, Range};
 
@@ -42,15 +42,11 @@ flow_stress! {
     }
 }
 
-/// Newton steps at most: the condition of the return is convex, the method comes up to its root from below and squares the rest
-/// once a step is short against 1/b. Where hardening is far stiffer than the body it takes about one step for each 1/b of
-/// strain before that.
-const STEPS: usize = 40;
-/// Step, over the length so far, after which the next changes nothing.
-const ENOUGH: f64 = 1e-9;
-
 impl FlowStress for VoceHardening {
     type Memory = ();
+    // the condition of the return is convex: the method comes up to its root from below and squares the rest once a step is short
+    // against 1/b; where hardening is far stiffer than the body it takes about one step for each 1/b of strain before that
+    const NEWTON_STEPS: usize = 40;
 
     #[inline(always)]
     fn stress(&self, strain: Lanes, _: Lanes, _: f64, (): &()) -> Lanes {
@@ -63,36 +59,12 @@ impl FlowStress for VoceHardening {
         let first = self.saturation * self.exponent;
         strain.map(|strain| first * (-self.exponent * strain).exp())
     }
-
-    #[inline(always)]
-    fn length_of_return(
-        &self,
-        norm: Lanes,
-        stiffness: Lanes,
-        strain: Lanes,
-        dt: f64,
-        (): &(),
-    ) -> Lanes {
-        let mut length = Lanes::default();
-        for _ in 0..STEPS {
-            let end = strain + length * ROOT;
-            let misfit = norm - stiffness * length - self.stress(end, length, dt, &()) * ROOT;
-            let slope = stiffness + self.slope(end, length, dt, &()) * (2.0 / 3.0);
-            // lanes that do not yield stay where they are
-            let step = (misfit * slope.recip()).map(|step| step.max(0.0));
-            length += step;
-            if !(step - length * ENOUGH).any_positive() {
-                break;
-            }
-        }
-        length
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::material::flow::LinearHardening;
+    use crate::material::flow::{LinearHardening, ROOT};
 
     const STIFFNESS: f64 = 0.7;
 
