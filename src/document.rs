@@ -8,10 +8,10 @@ pub(crate) mod schema;
 mod words;
 
 use self::words::in_plain_words;
+use crate::files::sha256;
 use crate::unit::Quantity;
 use crate::{Error, Place, Result};
 use serde::de::DeserializeOwned;
-use sha2::{Digest, Sha256};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
@@ -80,10 +80,7 @@ impl Document {
     /// SHA-256 of the text, hexadecimal: provenance of everything made from the file.
     #[must_use]
     pub fn hash(&self) -> String {
-        Sha256::digest(self.text.as_bytes())
-            .iter()
-            .map(|byte| format!("{byte:02x}"))
-            .collect()
+        sha256([&self.text])
     }
 
     /// A file named in this one: relative names are meant from this file's folder.

@@ -5,7 +5,7 @@ mod claim;
 mod sum;
 
 pub use claim::Claim;
-pub use sum::{Sum, sum_of, with_sum};
+pub use sum::{Sum, sha256, sum_of, with_sum};
 
 use crate::{Error, Result};
 use serde::Serialize;

@@ -43,6 +43,16 @@ impl Study {
         Self::from_document(&Document::read(path)?)
     }
 
+    /// Cases that were made from another file than a study, whose SHA-256 is `hash`.
+    #[must_use]
+    pub fn made_from(hash: &str, name: &str, cases: Vec<Case>) -> Self {
+        Study {
+            name: name.to_owned(),
+            hash: hash.to_owned(),
+            cases,
+        }
+    }
+
     /// Keys of a study file.
     #[must_use]
     pub fn keys() -> Kind {

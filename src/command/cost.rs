@@ -6,7 +6,7 @@ use crate::cost::accuracy;
 use crate::cost::thesis::{self, Comparison};
 use crate::cost::{Effort, Finished, Footprint, Pulse, Row, Rung, Summary, mark_front, rungs};
 use crate::curve::{Impact, Status};
-use crate::files::{Sum, sum_of, with_sum, write_atomic, write_rows};
+use crate::files::{Sum, sha256, sum_of, with_sum, write_atomic, write_rows};
 use crate::impact::simulate;
 use crate::plan::severity;
 use crate::report::chart::{Chart, Mark, Series};
@@ -16,7 +16,6 @@ use crate::report::scale::Axis;
 use crate::unit::{self, Time, significant};
 use crate::{Error, Result};
 use clap::Args;
-use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
 
 /// Show what accuracy costs: ladders over grid, points, time step and scheme; errors against wall time.
@@ -172,9 +171,8 @@ impl Job<'_> {
             (rung.plan.geometry, rung.plan.estimate),
             rung.plan.velocity
         );
-        let hash = Sha256::digest(text.as_bytes());
-        let name: String = hash[..8].iter().map(|byte| format!("{byte:02x}")).collect();
-        self.out.join("runs").join(name)
+        let hash = sha256([text]);
+        self.out.join("runs").join(&hash[..16])
     }
 
     /// The run of a rung: read if it is there, else simulated and kept.

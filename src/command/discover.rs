@@ -15,10 +15,9 @@ use crate::discover::score::{Model, Score, Split};
 use crate::discover::search::Effort;
 use crate::discover::table::{Column, Table};
 use crate::discover::thesis::equations;
-use crate::files::{write_atomic, write_rows};
+use crate::files::{sha256, write_atomic, write_rows};
 use crate::{Error, Result};
 use clap::Args;
-use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -96,7 +95,7 @@ impl Command for DiscoverArgs {
         let bytes = std::fs::read(&path).map_err(Error::file("read", &path))?;
         let mut text = String::from_utf8_lossy(&bytes).into_owned();
         let mut study = Study::parse(&text, &path, self)?;
-        let mut hash = hash_of(&bytes);
+        let mut hash = sha256([&bytes]);
         let beside = path.parent().unwrap_or(Path::new("")).join("discover");
         let out = output_folder(Some(self.out.as_deref().unwrap_or(&beside)), "discover")?;
         context.open_log(&out, "discover", &hash);
@@ -105,9 +104,9 @@ impl Command for DiscoverArgs {
         let mut findings = super::on_a_worker(|| Ok(study.findings(self, context)))?;
         let mut verdict = Verdict::Met;
         if self.add > 0 {
-            (text, verdict) = self.more(&study, &findings, &path, context)?;
+            (text, verdict) = self.more(&study, &findings, &path, &hash, context)?;
             study = Study::parse(&text, &path, self)?;
-            hash = hash_of(text.as_bytes());
+            hash = sha256([&text]);
             context.say(&study.text())?;
             findings = super::on_a_worker(|| Ok(study.findings(self, context)))?;
         }
@@ -148,12 +147,6 @@ impl Command for DiscoverArgs {
     }
 }
 
-/// SHA-256 of results, hexadecimal.
-fn hash_of(bytes: &[u8]) -> String {
-    let digest = Sha256::digest(bytes);
-    digest.iter().map(|b| format!("{b:02x}")).collect()
-}
-
 impl DiscoverArgs {
     /// Runs cases where the formulas of a first look disagree; both tables as text.
     fn more(
@@ -161,6 +154,7 @@ impl DiscoverArgs {
         study: &Study,
         findings: &[Finding],
         path: &Path,
+        hash: &str,
         context: &Context,
     ) -> Result<(String, Verdict)> {
         let bounds = self.bounds.iter();
@@ -180,7 +174,7 @@ impl DiscoverArgs {
         let chosen = candidates.chosen(&study.runs, &fronts, tolerance, self.add);
         let cases = super::discover_add::cases(&study.table, &candidates, &chosen)?;
         let count = cases.len();
-        let (added, both, verdict) = super::discover_add::run(cases, path, context)?;
+        let (added, both, verdict) = super::discover_add::run(cases, path, hash, context)?;
         context.say(&format!(
             "{count} runs added where the formulas disagree -> {}\n",
             added.display()

@@ -92,13 +92,15 @@ pub fn cases(table: &Table, candidates: &Candidates, chosen: &[usize]) -> Result
     Ok(all)
 }
 
-/// Runs the cases into the store of the study in `folder`, writes `added.csv` there, and returns its path with the text of both tables.
+/// Runs the cases into the store of the study whose results have the SHA-256 `hash`, writes `added.csv` beside them, and returns its
+/// path with the text of both tables.
 ///
 /// # Errors
 /// Those of running and writing; [`Error::Refused`] where `results.csv` has other columns than this program writes, before anything is run.
 pub fn run(
     cases: Vec<Case>,
     results: &Path,
+    hash: &str,
     context: &Context,
 ) -> Result<(PathBuf, String, Verdict)> {
     let folder = results
@@ -106,11 +108,7 @@ pub fn run(
         .filter(|f| !f.as_os_str().is_empty())
         .unwrap_or(Path::new("."));
     let text = std::fs::read_to_string(results).map_err(Error::file("read", results))?;
-    let study = Study {
-        name: "added".to_owned(),
-        hash: "0".repeat(64),
-        cases,
-    };
+    let study = Study::made_from(hash, "added", cases);
     let head = |text: &str| {
         text.lines()
             .find(|line| !line.starts_with('#'))
@@ -134,7 +132,7 @@ pub fn run(
         context,
     )?;
     let path = out.join("added.csv");
-    let added = rows_of(&study, &runs, &path)?;
+    let added = rows_of(&study, &runs, &context.provenance(hash), &path)?;
     let added = String::from_utf8_lossy(&added).into_owned();
     write_atomic(&path, added.as_bytes())?;
     if head(&added) != head(&text) {

@@ -1,13 +1,14 @@
 //! Inverse command: measured impacts to the yield strength, or yield strength and hardening modulus, that they tell.
 
 use super::impact::interval;
+use super::material_args::{FILE, MaterialArgs};
 use super::show::inverse::{Asked, FoundCase, Report};
 use super::study_runs::{queue, run_folder, simulated};
 use super::{Command, Context, Verdict, output_folder, print_json};
 use crate::atlas::Atlas;
 use crate::case::Case;
 use crate::curve::{Impact, Status};
-use crate::files::write_atomic;
+use crate::files::{sha256, write_atomic};
 use crate::inverse::confidence::{Sampling, intervals};
 use crate::inverse::measurement::{LARGEST_SHARE, Measurements, Taken, Uncertainty};
 use crate::inverse::model::{Known, Point};
@@ -17,10 +18,9 @@ use crate::material::flow::{HARDENING_MODULUS, YIELD_STRENGTH};
 use crate::material::{Flow, Material};
 use crate::shape::Shape;
 use crate::study::{Groups, Study};
-use crate::unit::{Density, Length, Pressure, argument};
+use crate::unit::{Length, Pressure, argument};
 use crate::{Error, Result};
 use clap::{Args, ValueEnum};
-use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -31,20 +31,11 @@ pub struct InverseArgs {
     /// as `restitution_sigma`, `velocity_sigma_m_s`, `radius_um` (guide, "From impacts to a material").
     pub measurements: PathBuf,
     /// Case file with radius and material; its yield strength is not looked at.
-    #[arg(long, conflicts_with_all = ["young", "poisson", "density", "radius"])]
+    #[arg(long, id = FILE, value_name = "CASE")]
     pub case: Option<PathBuf>,
-    /// Young's modulus, e.g. `128GPa`.
-    #[arg(long, required_unless_present = "case")]
-    pub young: Option<String>,
-    /// Poisson's ratio.
-    #[arg(long, required_unless_present = "case")]
-    pub poisson: Option<String>,
-    /// Density, e.g. `8960kg/m3`.
-    #[arg(long, required_unless_present = "case")]
-    pub density: Option<String>,
-    /// Radius of particles whose row has none, e.g. `250um`.
-    #[arg(long, required_unless_present = "case")]
-    pub radius: Option<String>,
+    /// The material, and the radius of particles whose row has none.
+    #[command(flatten)]
+    pub material: MaterialArgs,
     /// What is sought.
     #[arg(long, value_delimiter = ',', default_value = "yield")]
     pub estimate: Vec<Sought>,
@@ -127,8 +118,7 @@ impl Command for InverseArgs {
         };
         let path = &self.measurements;
         let bytes = std::fs::read(path).map_err(Error::file("read", path))?;
-        let digest = Sha256::digest(&bytes);
-        let hash: String = digest.iter().map(|b| format!("{b:02x}")).collect();
+        let hash = sha256([&bytes]);
         let read = Measurements::parse(&String::from_utf8_lossy(&bytes), path, &taken)?;
         for column in &read.unused {
             tracing::warn!("column `{column}` is not used");
@@ -172,7 +162,7 @@ impl Command for InverseArgs {
         let (mut rounds, mut settled) = (Vec::new(), true);
         if self.refine {
             let run = |material: &Material, speeds: &[f64]| {
-                self.runs(material, speeds, &out, interval, context)
+                self.runs(material, speeds, &hash, &out, interval, context)
             };
             (estimate, rounds, settled) =
                 refine(&mut problem, estimate, 0.1 * self.tolerance, run)?;
@@ -251,7 +241,7 @@ impl InverseArgs {
         }
         let case = match &self.case {
             Some(path) => Case::read(path)?,
-            None => self.own_case()?,
+            None => self.material.case("arguments", self.tolerance, None, &[])?,
         };
         if case.shape != Shape::Sphere || case.angle > 0.0 {
             return Err(Error::Refused {
@@ -287,24 +277,6 @@ impl InverseArgs {
             },
         };
         Ok((known, case.radius))
-    }
-
-    /// The material of the arguments as an elastic case.
-    fn own_case(&self) -> Result<Case> {
-        let text = |given: &Option<String>| given.clone().unwrap_or_default();
-        let poisson = text(&self.poisson);
-        let material = Material {
-            density: argument::<Density>("--density", &text(&self.density))?,
-            young_modulus: argument::<Pressure>("--young", &text(&self.young))?,
-            poisson_ratio: poisson.parse().map_err(|_| Error::Argument {
-                argument: "--poisson".to_owned(),
-                found: format!("\"{poisson}\""),
-                allowed: "must be a number in [0, 0.5)".to_owned(),
-            })?,
-            flow: None,
-        };
-        let radius = argument::<Length>("--radius", &text(&self.radius))?;
-        Case::of("arguments", radius, material, &[1.0], self.tolerance)
     }
 
     fn uncertainty(&self) -> Result<Uncertainty> {
@@ -355,16 +327,14 @@ impl InverseArgs {
         &self,
         material: &Material,
         speeds: &[f64],
+        hash: &str,
         out: &Path,
         interval: Duration,
         context: &Context,
     ) -> Result<Vec<Run>> {
         let case = |speed: &f64| Case::of("inverse", 1.0, *material, &[*speed], self.tolerance);
-        let study = Study {
-            name: "inverse".to_owned(),
-            hash: "0".repeat(64),
-            cases: speeds.iter().map(case).collect::<Result<_>>()?,
-        };
+        let cases = speeds.iter().map(case).collect::<Result<_>>()?;
+        let study = Study::made_from(hash, "inverse", cases);
         simulated(&study, queue(&study), &[out], interval, context)?;
         let mut runs = Vec::new();
         for case in &study.cases {

@@ -1,45 +1,34 @@
 //! `law --young ...`: the law of a material from the atlas, in milliseconds.
 
+use super::material_args::{FILE, MaterialArgs};
 use super::{Context, Verdict, check_writable};
-use crate::case::{Case, slips};
+use crate::case::Case;
 use crate::law::LawFile;
-use crate::material::flow::LinearHardening;
-use crate::material::{Flow, Material};
+use crate::material::Flow;
+use crate::material::flow::{HARDENING_MODULUS, LinearHardening, YIELD_STRENGTH};
 use crate::study::Study;
-use crate::unit::{Density, Length, Pressure, argument};
+use crate::unit::{Pressure, argument};
 use crate::{Error, Result};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
-/// Make the law file of a material from the atlas, without a simulation.
+/// Make the law file of a material from the atlas, without a simulation. The law serves every size; the radius is named in the file.
 #[derive(Debug, Args)]
 pub struct LawAtlasArgs {
-    /// Young's modulus, e.g. `128GPa`.
-    #[arg(long, required_unless_present = "study")]
-    pub young: Option<String>,
+    /// Its elastic constants, and the radius that is named in the file.
+    #[command(flatten)]
+    pub material: MaterialArgs,
     /// Yield strength, e.g. `162MPa`.
-    #[arg(long = "yield", required_unless_present = "study")]
+    #[arg(long = "yield", required_unless_present = FILE)]
     pub strength: Option<String>,
-    /// Poisson's ratio.
-    #[arg(long, required_unless_present = "study")]
-    pub poisson: Option<String>,
-    /// Density, e.g. `8960kg/m3`.
-    #[arg(long, required_unless_present = "study")]
-    pub density: Option<String>,
     /// Hardening modulus, e.g. `1GPa`.
     #[arg(long)]
     pub hardening: Option<String>,
-    /// Radius, e.g. `250um`: the law serves every size, this one is named in its file.
-    #[arg(long, required_unless_present = "study")]
-    pub radius: Option<String>,
     /// Name of the law; by default that of the file.
     #[arg(long)]
     pub name: Option<String>,
     /// A study file whose materials get a law each, named after their cases, in the folder `--out`.
-    #[arg(
-        long,
-        conflicts_with_all = ["young", "strength", "poisson", "density", "hardening", "radius", "name"]
-    )]
+    #[arg(long, id = FILE, value_name = "STUDY", conflicts_with_all = ["strength", "hardening", "name"])]
     pub study: Option<PathBuf>,
     /// Law file to write; with `--study` a folder.
     #[arg(short, long, required = true)]
@@ -97,8 +86,8 @@ impl LawAtlasArgs {
 
     /// The material of the arguments as a case.
     fn case(&self, out: &Path) -> Result<Case> {
-        let text = |given: &Option<String>| given.clone().unwrap_or_default();
-        let strength = argument::<Pressure>("--yield", &text(&self.strength))?;
+        let strength = self.strength.as_deref().unwrap_or_default();
+        let strength = argument::<Pressure>("--yield", strength)?;
         let flow = match &self.hardening {
             None => Flow::perfectly_plastic(strength),
             Some(text) => LinearHardening {
@@ -107,42 +96,13 @@ impl LawAtlasArgs {
             }
             .into(),
         };
-        let poisson = text(&self.poisson);
-        let material = Material {
-            density: argument::<Density>("--density", &text(&self.density))?,
-            young_modulus: argument::<Pressure>("--young", &text(&self.young))?,
-            poisson_ratio: poisson.parse().map_err(|_| Error::Argument {
-                argument: "--poisson".to_owned(),
-                found: format!("\"{poisson}\""),
-                allowed: "must be a number in [0, 0.5)".to_owned(),
-            })?,
-            flow: Some(flow),
-        };
-        let radius = argument::<Length>("--radius", &text(&self.radius))?;
         let stem = out.file_stem().unwrap_or_default().to_string_lossy();
         let name = self.name.clone().unwrap_or_else(|| stem.into_owned());
-        let case = Case::of(&name, radius, material, &[1.0], 0.02)?;
-        // what Poisson's ratio may be the atlas says; it has no unit
-        let mut slips = slips::reasons(&case, &[]).into_iter();
-        match slips.find(|(key, ..)| !key.ends_with("poisson_ratio")) {
-            None => Ok(case),
-            Some((key, _, why)) => {
-                let argument = match key.rsplit('.').next().unwrap_or_default() {
-                    "density" => ("--density", &self.density),
-                    "young_modulus" => ("--young", &self.young),
-                    "radius" => ("--radius", &self.radius),
-                    "hardening_modulus" => ("--hardening", &self.hardening),
-                    _ => ("--yield", &self.strength),
-                };
-                Err(Error::Argument {
-                    argument: argument.0.to_owned(),
-                    found: format!("\"{}\"", text(argument.1)),
-                    allowed: format!(
-                        "check the unit: {why}; if it is meant, write a case and run it"
-                    ),
-                })
-            }
-        }
+        let told = [
+            (YIELD_STRENGTH, "--yield", &self.strength),
+            (HARDENING_MODULUS, "--hardening", &self.hardening),
+        ];
+        self.material.case(&name, 0.02, Some(flow), &told)
     }
 }
 

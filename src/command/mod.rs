@@ -23,6 +23,7 @@ pub(crate) mod law;
 pub(crate) mod law_atlas;
 pub mod log;
 pub(crate) mod man;
+mod material_args;
 pub(crate) mod plan;
 pub(crate) mod predict;
 pub(crate) mod run;

@@ -5,13 +5,12 @@ use super::study_runs::{queue, run_folder, simulated};
 use super::{Command, Context, Verdict, output_folder};
 use crate::case::Case;
 use crate::curve::{Impact, Status, Summary};
-use crate::files::write_rows;
+use crate::files::{sha256, write_rows};
 use crate::study::{Groups, KeptRun, REFERENCE, Study, scaled};
 use crate::thesis::tables::{METAL_RADIUS, METALS};
 use crate::thesis::{Data, Row};
 use crate::{Error, Result};
 use clap::Args;
-use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -38,14 +37,13 @@ impl Command for StudyReportArgs {
     fn run(&self, context: &Context) -> Result<Verdict> {
         let path = self.path();
         let bytes = std::fs::read(&path).map_err(Error::file("read", &path))?;
-        let digest = Sha256::digest(&bytes);
-        let hash: String = digest.iter().map(|b| format!("{b:02x}")).collect();
+        let hash = sha256([&bytes]);
         let data = Data::parse(&String::from_utf8_lossy(&bytes), &path)?;
         let folder = path.parent().unwrap_or(Path::new("")).to_owned();
         let own = folder.join("report");
         let out = output_folder(Some(self.out.as_deref().unwrap_or(&own)), "report")?;
         context.open_log(&out, "study-report", &hash);
-        let metals = metals(&out, context)?;
+        let metals = metals(&out, &hash, context)?;
         let report = super::on_a_worker(|| Ok(Report::of(data)))?;
         let provenance = context.provenance(&hash);
         write_rows(&out.join("equations.csv"), &provenance, &report.rows())?;
@@ -72,7 +70,7 @@ impl StudyReportArgs {
 }
 
 /// Impacts of lead and nickel, kept as those of a study are.
-fn metals(out: &Path, context: &Context) -> Result<Vec<Summary>> {
+fn metals(out: &Path, hash: &str, context: &Context) -> Result<Vec<Summary>> {
     let case = |k: usize| {
         Case::of(
             METALS[k].name,
@@ -82,11 +80,8 @@ fn metals(out: &Path, context: &Context) -> Result<Vec<Summary>> {
             TOLERANCE,
         )
     };
-    let study = Study {
-        name: "metals".to_owned(),
-        hash: "0".repeat(64),
-        cases: (0..METALS.len()).map(case).collect::<Result<_>>()?,
-    };
+    let cases = (0..METALS.len()).map(case).collect::<Result<_>>()?;
+    let study = Study::made_from(hash, "metals", cases);
     let runs = simulated(
         &study,
         queue(&study),

@@ -28,7 +28,7 @@ pub fn report(
     context: &Context,
 ) -> Result<Verdict> {
     let path = out.join("results.csv");
-    write_atomic(&path, &rows_of(study, runs, &path)?)?;
+    write_atomic(&path, &rows_of(study, runs, &provenance(study), &path)?)?;
     let times: Vec<Time> = runs.iter().map(|(run, (_, s))| Time::of(run, s)).collect();
     write_rows(
         &out.join("times.csv"),
@@ -80,11 +80,11 @@ pub fn check_owner(out: &Path, study: &Study) -> Result<()> {
 /// What stands before the name of the study in the provenance of its results.
 const STUDY: &str = "; impactlaw study ";
 
-/// Text of `results.csv`: the figures of the runs of each case.
+/// Text of `results.csv`: the figures of the runs of each case, below a line of `provenance`.
 ///
 /// # Errors
 /// [`Error::File`] naming `path` for rows that make no table.
-pub fn rows_of(study: &Study, runs: &Runs, path: &Path) -> Result<Vec<u8>> {
+pub fn rows_of(study: &Study, runs: &Runs, provenance: &str, path: &Path) -> Result<Vec<u8>> {
     let rows: Vec<(&Case, Summary)> = study
         .cases
         .iter()
@@ -93,7 +93,7 @@ pub fn rows_of(study: &Study, runs: &Runs, path: &Path) -> Result<Vec<u8>> {
             (case, scaled(summary, &REFERENCE, case))
         })
         .collect();
-    table(&rows, &provenance(study), path)
+    table(&rows, provenance, path)
 }
 
 /// Line on top of `results.csv`: the same however the runs were made, so that the parts of a study make the bytes of the whole.

@@ -45,10 +45,17 @@ pub fn sum_of(text: &str, beside: &[u8]) -> Sum {
 }
 
 fn digest(before: &str, after: &str, beside: &[u8]) -> String {
+    let parts = [before.as_bytes(), after.as_bytes(), beside];
+    // with its length, so that nothing moves from one part to the next
+    let lengths = parts.map(|part| (part.len() as u64).to_le_bytes());
+    sha256((0..3).flat_map(|k| [&lengths[k][..], parts[k]]))
+}
+
+/// SHA-256 of what stands in the parts, one after the other, hexadecimal.
+#[must_use]
+pub fn sha256<P: AsRef<[u8]>>(parts: impl IntoIterator<Item = P>) -> String {
     let mut sum = Sha256::new();
-    for part in [before.as_bytes(), after.as_bytes(), beside] {
-        // with its length, so that nothing moves from one part to the next
-        sum.update((part.len() as u64).to_le_bytes());
+    for part in parts {
         sum.update(part);
     }
     let bytes = sum.finalize();

@@ -13,13 +13,12 @@ use crate::contact::NormalLaw;
 use crate::contact::loading::{Loading, SoftenedHertz};
 use crate::contact::spline::SplineLoading;
 use crate::contact::unloading::Unloading;
-use crate::files::write_atomic;
+use crate::files::{sha256, write_atomic};
 use crate::fit::confidence::LeftOut;
 use crate::fit::quality::Quality;
 use crate::fit::{Fit, FittedForm, Outcome, left_out_bound, threshold};
 use crate::material::flow::FlowConstants;
 use crate::material::{Material, YIELD_PRESSURE_RATIO};
-use sha2::{Digest, Sha256};
 use std::path::Path;
 
 /// What a person who opens a law file needs to know; the equations are those of `contact::loading`, `contact::spline`,
@@ -154,8 +153,7 @@ impl LawFile {
             }),
         };
         // what its tables say stands for the case that it has not
-        let sum = Sha256::digest(file.text()?);
-        file.provenance.case_sha256 = sum.iter().map(|byte| format!("{byte:02x}")).collect();
+        file.provenance.case_sha256 = sha256([file.text()?]);
         Ok(file)
     }
 

@@ -38,6 +38,7 @@ use crate::dem::bodies::Body;
 use crate::dem::bodies::enclosure::{PISTON, Room, WALLS};
 use crate::dem::grains::periodic::Periodic;
 use crate::document::Document;
+use crate::files::sha256;
 use body::{BodyTable, Files, check_bodies};
 use container::BoxTable;
 use group::{GroupTable, check_groups};
@@ -48,7 +49,6 @@ use pair::check_pairs;
 use parry3d::math::Vector;
 use serde::Deserialize;
 use settings::{ContactTable, PairTable, TimeTable};
-use sha2::{Digest, Sha256};
 use stage_tables::{Cast, StageTable, check_stages};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -382,14 +382,7 @@ fn hash(document: &Document, files: &Files) -> String {
     if files.is_empty() {
         return document.hash();
     }
-    let mut sum = Sha256::new();
-    sum.update(document.text());
-    for (name, bytes) in files {
-        sum.update(name);
-        sum.update(bytes);
-    }
-    sum.finalize()
-        .iter()
-        .map(|byte| format!("{byte:02x}"))
-        .collect()
+    let named = files.iter();
+    let named = named.flat_map(|(name, bytes)| [name.as_bytes(), bytes]);
+    sha256(std::iter::once(document.text().as_bytes()).chain(named))
 }

@@ -14,10 +14,10 @@ use crate::export::c::contact::filled;
 use crate::export::c::kernel::number;
 use crate::export::source::artifact::Artifact;
 use crate::export::source::portable::Portable;
+use crate::files::sha256;
 use crate::law::LawFile;
 use crate::law::file::plain;
 use crate::{Error, Result};
-use sha2::{Digest, Sha256};
 use std::fmt::Write;
 
 /// Gap over the smallest radius left between the highest grain and the piston, as in a bed.
@@ -221,9 +221,7 @@ pub fn law(scene: &Scene, given: Option<&LawFile>) -> Result<Portable> {
             .document
             .reject(&format!("{}.law", material.key), "must name a law file"));
     };
-    let sum = Sha256::digest(file.text()?);
-    let hash = sum.iter().map(|byte| format!("{byte:02x}")).collect();
-    Portable::new(file.clone(), None, hash)
+    Portable::new(file.clone(), None, sha256([file.text()?]))
 }
 
 /// Files of a scene for a code, law included, in a folder of the code's name.
