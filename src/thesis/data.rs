@@ -1,6 +1,7 @@
 //! The cases of a study as the thesis looks at them: every row with its status, and its numbers without dimension.
 
 use crate::discover::dimension::Named;
+use crate::material::flow::{InSi, Spelling, YIELD_STRENGTH};
 use crate::material::{Flow, Material};
 use crate::{Error, Result};
 use std::f64::consts::PI;
@@ -142,7 +143,7 @@ pub struct Data {
     pub others: usize,
 }
 
-/// Inputs that must be there, and those that must be 0 or absent, by the beginnings of their names.
+/// Inputs that must be there.
 const INPUTS: [&str; 6] = [
     "density_kg_m3",
     "young_modulus_Pa",
@@ -151,6 +152,7 @@ const INPUTS: [&str; 6] = [
     "radius_m",
     "velocity_m_s",
 ];
+/// Figures that must be there.
 const FIGURES: [&str; 6] = [
     "restitution",
     "max_force_N",
@@ -159,15 +161,134 @@ const FIGURES: [&str; 6] = [
     "equivalent_plastic_strain",
     "plastic_work_ratio",
 ];
-const ABSENT: [&str; 7] = [
-    "hardening_",
-    "saturation_",
-    "rate_",
-    "doubling_",
-    "softening_",
-    "angle_deg",
-    "friction",
-];
+
+/// Inputs of an oblique impact.
+const OBLIQUE: [&str; 2] = ["angle_deg", "friction"];
+
+/// Whether a column is a constant of a flow stress that is not perfectly plastic.
+fn tells_flow(column: &str) -> bool {
+    let constants = Flow::all_constants();
+    let mut others = constants.iter().filter(|c| **c != YIELD_STRENGTH);
+    others.any(|constant| InSi::key(constant) == column)
+}
+
+/// Refusal of a table.
+fn refuse(path: &Path, key: &str, found: String, allowed: &str) -> Error {
+    Error::Value {
+        path: path.to_owned(),
+        key: key.to_owned(),
+        found,
+        allowed: allowed.to_owned(),
+        place: None,
+    }
+}
+
+/// Columns of a table by their SI names.
+struct Columns<'a> {
+    path: &'a Path,
+    named: Vec<(String, f64)>,
+    /// Those that are 0 or absent in the cases of the thesis, by their places.
+    others: Vec<usize>,
+}
+
+impl<'a> Columns<'a> {
+    fn of(heads: &csv::StringRecord, path: &'a Path) -> Result<Self> {
+        let named: Vec<(String, f64)> = heads
+            .iter()
+            .map(|head| match Named::of(head) {
+                Some(named) => (named.name, named.factor),
+                None => (head.to_owned(), 1.0),
+            })
+            .collect();
+        for name in INPUTS.iter().chain(&FIGURES) {
+            if !named.iter().any(|(known, _)| known == name) {
+                let allowed = "must be there: a report needs the results.csv of a study";
+                return Err(refuse(path, name, "no such column".to_owned(), allowed));
+            }
+        }
+        let is_other = |i: &usize| OBLIQUE.contains(&&named[*i].0[..]) || tells_flow(&named[*i].0);
+        let others = (0..named.len()).filter(is_other).collect();
+        Ok(Columns {
+            path,
+            named,
+            others,
+        })
+    }
+
+    /// A row; none of a case of which the thesis says nothing.
+    fn row(&self, record: &csv::StringRecord) -> Result<Option<Row>> {
+        let cell = |at: usize| record.get(at).unwrap_or_default();
+        let place = |name: &str| self.named.iter().position(|(known, _)| known == name);
+        let number = |name: &str| {
+            let value = place(name).and_then(|at| Some((cell(at).parse::<f64>().ok()?, at)));
+            value.map_or(f64::NAN, |(value, at)| value * self.named[at].1)
+        };
+        let row = Row {
+            density: number("density_kg_m3"),
+            young_modulus: number("young_modulus_Pa"),
+            strength: number("yield_strength_Pa"),
+            poisson_ratio: number("poisson_ratio"),
+            radius: number("radius_m"),
+            velocity: number("velocity_m_s"),
+            restitution: number("restitution"),
+            force: number("max_force_N"),
+            displacement: number("max_displacement_m"),
+            residual: number("residual_displacement_m"),
+            compression: number("compression_ratio"),
+            strain: number("equivalent_plastic_strain"),
+            work: number("plastic_work_ratio"),
+            tolerance: number("tolerance"),
+            status: place("status").map_or("ok", cell).to_owned(),
+        };
+        let line = record.position().map_or(0, csv::Position::line);
+        let at = |found: &str, allowed: &str| {
+            let key = format!("line {line}");
+            Err(refuse(self.path, &key, found.to_owned(), allowed))
+        };
+        let written = |name: &&&str| place(name).is_some_and(|at| !cell(at).is_empty());
+        if let Some(name) = INPUTS
+            .iter()
+            .filter(written)
+            .find(|name| number(name).is_nan())
+        {
+            return at(&format!("no number for `{name}`"), "must be one, or empty");
+        }
+        let is_set = |at: &usize| {
+            let value = cell(*at).parse::<f64>();
+            value.is_ok_and(|value| value.is_finite() && value != 0.0)
+        };
+        if self.others.iter().any(is_set) || row.strength.is_nan() {
+            return Ok(None);
+        }
+        let inputs = [
+            row.density,
+            row.young_modulus,
+            row.strength,
+            row.radius,
+            row.velocity,
+        ];
+        let positive = |x: &f64| *x > 0.0 && x.is_finite();
+        if !inputs.iter().all(positive) || !(0.0..0.5).contains(&row.poisson_ratio) {
+            return at(
+                "an input that is no positive number",
+                "density, moduli, radius and speed must be above 0, Poisson's ratio in [0, 0.5)",
+            );
+        }
+        let figures = [
+            row.restitution,
+            row.force,
+            row.displacement,
+            row.compression,
+            row.strain,
+            row.work,
+        ];
+        if row.ok() && !figures.iter().all(|x| x.is_finite()) {
+            let found = "a figure without number in a row with status ok";
+            return at(found, "must be a number");
+        }
+        Ok(Some(row))
+    }
+}
 
 impl Data {
     /// Reads the text of `results.csv`.
@@ -175,125 +296,29 @@ impl Data {
     /// # Errors
     /// [`Error::Value`] for what is no such table, or has no case the thesis speaks of.
     pub fn parse(text: &str, path: &Path) -> Result<Self> {
-        let refuse = |key: &str, found: String, allowed: &str| Error::Value {
-            path: path.to_owned(),
-            key: key.to_owned(),
-            found,
-            allowed: allowed.to_owned(),
-            place: None,
-        };
         let broken = |error: csv::Error| {
-            refuse(
-                "table",
-                error.to_string(),
-                "must be the results.csv of a study",
-            )
+            let allowed = "must be the results.csv of a study";
+            refuse(path, "table", error.to_string(), allowed)
         };
         let mut reader = csv::ReaderBuilder::new()
             .comment(Some(b'#'))
             .trim(csv::Trim::All)
             .from_reader(text.as_bytes());
-        let heads = reader.headers().map_err(broken)?.clone();
-        let columns: Vec<(String, f64)> = heads
-            .iter()
-            .map(|head| match Named::of(head) {
-                Some(named) => (named.name, named.factor),
-                None => (head.to_owned(), 1.0),
-            })
-            .collect();
-        let place = |name: &str| columns.iter().position(|(known, _)| known == name);
-        for name in INPUTS.iter().chain(&FIGURES) {
-            if place(name).is_none() {
-                return Err(refuse(
-                    name,
-                    "no such column".to_owned(),
-                    "must be there: a report needs the results.csv of a study",
-                ));
-            }
-        }
-        let others: Vec<usize> = (0..columns.len())
-            .filter(|&i| {
-                let name = &columns[i].0;
-                !name.contains("_over_") && ABSENT.iter().any(|start| name.starts_with(start))
-            })
-            .collect();
+        let columns = Columns::of(reader.headers().map_err(broken)?, path)?;
         let mut data = Data {
             rows: Vec::new(),
             others: 0,
         };
         for record in reader.records() {
-            let record = record.map_err(broken)?;
-            let line = record.position().map_or(0, csv::Position::line);
-            let cell = |at: Option<usize>| at.and_then(|at| record.get(at)).unwrap_or_default();
-            let number = |name: &str| {
-                let at = place(name);
-                let factor = at.map_or(1.0, |at| columns[at].1);
-                cell(at).parse::<f64>().map_or(f64::NAN, |x| x * factor)
-            };
-            let is_set = |i: &&usize| {
-                let value = cell(Some(**i)).parse::<f64>();
-                value.is_ok_and(|value| value.is_finite() && value != 0.0)
-            };
-            let status = match place("status") {
-                Some(at) => cell(Some(at)).to_owned(),
-                None => "ok".to_owned(),
-            };
-            let row = Row {
-                density: number("density_kg_m3"),
-                young_modulus: number("young_modulus_Pa"),
-                strength: number("yield_strength_Pa"),
-                poisson_ratio: number("poisson_ratio"),
-                radius: number("radius_m"),
-                velocity: number("velocity_m_s"),
-                restitution: number("restitution"),
-                force: number("max_force_N"),
-                displacement: number("max_displacement_m"),
-                residual: number("residual_displacement_m"),
-                compression: number("compression_ratio"),
-                strain: number("equivalent_plastic_strain"),
-                work: number("plastic_work_ratio"),
-                tolerance: number("tolerance"),
-                status,
-            };
-            if others.iter().any(|i| is_set(&i)) || row.strength.is_nan() {
-                data.others += 1;
-                continue;
+            match columns.row(&record.map_err(broken)?)? {
+                Some(row) => data.rows.push(row),
+                None => data.others += 1,
             }
-            let inputs = [
-                row.density,
-                row.young_modulus,
-                row.strength,
-                row.radius,
-                row.velocity,
-            ];
-            let positive = |x: &f64| *x > 0.0 && x.is_finite();
-            if !inputs.iter().all(positive) || !(0.0..0.5).contains(&row.poisson_ratio) {
-                return Err(refuse(
-                    &format!("line {line}"),
-                    "an input that is no positive number".to_owned(),
-                    "density, moduli, radius and speed must be above 0, Poisson's ratio in [0, 0.5)",
-                ));
-            }
-            let figures = [
-                row.restitution,
-                row.force,
-                row.displacement,
-                row.compression,
-                row.strain,
-                row.work,
-            ];
-            if row.ok() && !figures.iter().all(|x| x.is_finite()) {
-                return Err(refuse(
-                    &format!("line {line}"),
-                    "a figure without number in a row with status ok".to_owned(),
-                    "must be a number",
-                ));
-            }
-            data.rows.push(row);
         }
         let usable = data.usable(Row::inside).len();
         if usable < FEWEST {
             return Err(refuse(
+                path,
                 "rows",
                 format!("{usable} that end well, yield and have rho V^2/Y up to {LARGEST}"),
                 "must be at least 12 of perfectly plastic bodies: the equations of the thesis are of these",

@@ -21,10 +21,6 @@ pub struct Equation {
     pub valid: fn(&Row) -> bool,
 }
 
-fn always(_: &Row) -> bool {
-    true
-}
-
 /// $\rho (V^2 - V_y^2)/Y$; 0 for what does not yield.
 #[must_use]
 pub fn beyond(row: &Row) -> f64 {
@@ -39,83 +35,96 @@ pub fn wu(row: &Row) -> f64 {
 
 /// All of them.
 pub const EQUATIONS: [Equation; 8] = [
-    Equation {
-        number: "4-4",
-        text: "ε_p = C1 ρV²/Y",
-        unit: "",
-        constants: &[0.474],
-        value: |row| row.strain,
-        form: |row, c| c[0] * row.severity(),
-        valid: always,
-    },
-    Equation {
-        number: "5-4",
-        text: "ε_p = C1 ρ(V² − V_y²)/Y",
-        unit: "",
-        constants: &[0.475],
-        value: |row| row.strain,
-        form: |row, c| c[0] * beyond(row),
-        valid: always,
-    },
-    Equation {
-        number: "4-5",
-        text: "1 − H_d/D = C1 (ρV²/Y)^C2",
-        unit: "",
-        constants: &[0.34, 0.66],
-        value: |row| row.compression,
-        form: |row, c| c[0] * row.severity().powf(c[1]),
-        valid: always,
-    },
-    Equation {
-        number: "5-5",
-        text: "1 − H_d/D = C1 (ρ(V² − V_y²)/Y)^C2",
-        unit: "",
-        constants: &[0.33, 0.66],
-        value: |row| row.compression,
-        form: |row, c| c[0] * beyond(row).powf(c[1]),
-        valid: always,
-    },
-    Equation {
-        number: "4-6",
-        text: "ε_p = C1 (1 − H_d/D)^C2",
-        unit: "",
-        constants: &[2.43, 1.5],
-        value: |row| row.strain,
-        form: |row, c| c[0] * row.compression.max(0.0).powf(c[1]),
-        valid: always,
-    },
-    Equation {
-        number: "4-8",
-        text: "e = C1 ((V/V_y)/(E*/Y))^C2",
-        unit: "",
-        constants: &[0.62, -0.5],
-        value: |row| row.restitution,
-        form: |row, c| c[0] * wu(row).powf(c[1]),
-        valid: |row| wu(row) / row.stiffness() >= 0.008,
-    },
-    Equation {
-        number: "4-9",
-        text: "e = C1 (E/Y)^C2 exp(−C3 (ρV²/Y)^C4)",
-        unit: "",
-        constants: &[2.85, -0.325, 2.0, 0.325],
-        value: |row| row.restitution,
-        form: |row, c| {
+    Equation::of(
+        "4-4",
+        "ε_p = C1 ρV²/Y",
+        &[0.474],
+        |row| row.strain,
+        |row, c| c[0] * row.severity(),
+    ),
+    Equation::of(
+        "5-4",
+        "ε_p = C1 ρ(V² − V_y²)/Y",
+        &[0.475],
+        |row| row.strain,
+        |row, c| c[0] * beyond(row),
+    ),
+    Equation::of(
+        "4-5",
+        "1 − H_d/D = C1 (ρV²/Y)^C2",
+        &[0.34, 0.66],
+        |row| row.compression,
+        |row, c| c[0] * row.severity().powf(c[1]),
+    ),
+    Equation::of(
+        "5-5",
+        "1 − H_d/D = C1 (ρ(V² − V_y²)/Y)^C2",
+        &[0.33, 0.66],
+        |row| row.compression,
+        |row, c| c[0] * beyond(row).powf(c[1]),
+    ),
+    Equation::of(
+        "4-6",
+        "ε_p = C1 (1 − H_d/D)^C2",
+        &[2.43, 1.5],
+        |row| row.strain,
+        |row, c| c[0] * row.compression.max(0.0).powf(c[1]),
+    ),
+    Equation::of(
+        "4-8",
+        "e = C1 ((V/V_y)/(E*/Y))^C2",
+        &[0.62, -0.5],
+        |row| row.restitution,
+        |row, c| c[0] * wu(row).powf(c[1]),
+    )
+    .valid_where(|row| wu(row) / row.stiffness() >= 0.008),
+    Equation::of(
+        "4-9",
+        "e = C1 (E/Y)^C2 exp(−C3 (ρV²/Y)^C4)",
+        &[2.85, -0.325, 2.0, 0.325],
+        |row| row.restitution,
+        |row, c| {
             c[0] * row.young_over_yield().powf(c[1]) * (-c[2] * row.severity().powf(c[3])).exp()
         },
-        valid: always,
-    },
-    Equation {
-        number: "4-13",
-        text: "F* = C1 π R² (Y ρ V²)^½",
-        unit: "N",
-        constants: &[2.0],
-        value: |row| row.force,
-        form: |row, c| c[0] * row.force_scale(),
-        valid: always,
-    },
+    ),
+    Equation::of(
+        "4-13",
+        "F* = C1 π R² (Y ρ V²)^½",
+        &[2.0],
+        |row| row.force,
+        |row, c| c[0] * row.force_scale(),
+    )
+    .in_unit("N"),
 ];
 
 impl Equation {
+    /// An equation that gives the pure number `value` by its `form`, and is said to hold everywhere.
+    const fn of(
+        number: &'static str,
+        text: &'static str,
+        constants: &'static [f64],
+        value: fn(&Row) -> f64,
+        form: fn(&Row, &[f64]) -> f64,
+    ) -> Self {
+        Equation {
+            number,
+            text,
+            unit: "",
+            constants,
+            value,
+            form,
+            valid: |_| true,
+        }
+    }
+
+    const fn in_unit(self, unit: &'static str) -> Self {
+        Equation { unit, ..self }
+    }
+
+    const fn valid_where(self, valid: fn(&Row) -> bool) -> Self {
+        Equation { valid, ..self }
+    }
+
     /// The equation of this number.
     #[must_use]
     pub fn numbered(number: &str) -> Option<&'static Equation> {
