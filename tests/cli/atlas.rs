@@ -1,6 +1,7 @@
 //! The atlas from outside: laws of materials without a simulation, by command line, by study and by name in scenes.
 
 use crate::program::{impactlaw, message};
+use crate::slips::SCENE;
 use impactlaw::law::LawFile;
 use std::path::Path;
 use std::process::Output;
@@ -134,41 +135,15 @@ fn the_laws_of_the_shipped_materials_are_what_one_command_makes() {
     assert!(count >= 14 && count == made, "{count} shipped, {made} made");
 }
 
-/// Some grains that fall into a box; `LAWS` and `OWN` say by which law.
-const SCENE: &str = r#"
-LAWS
-seed = 7
-gravity = "9.81 m/s2"
-[material]
-density = "2500 kg/m3"
-young_modulus = "50 MPa"
-poisson_ratio = 0.3
-yield_strength = "STRENGTH"
-OWN
-[grains]
-count = 20
-radius = "1 mm"
-[contact]
-friction = 0.4
-restitution = 0.7
-[box]
-width = "8 mm"
-depth = "8 mm"
-[[stage]]
-kind = "run"
-name = "fall"
-duration = "20 ms"
-[output]
-rows = 5
-frames = 0
-film = 0
-"#;
-
-/// `bed.csv` of a scene without its first line, or what is said where it is refused.
+/// `bed.csv`, without its first line, of falling grains with a list of laws or a law of their material, or what is said where it is
+/// refused.
 fn bed(laws: &str, own: &str, strength: &str) -> Result<String, String> {
     let folder = tempfile::tempdir().unwrap();
-    let scene = SCENE.replace("LAWS", laws).replace("OWN", own);
-    let scene = scene.replace("STRENGTH", strength);
+    let material = format!("poisson_ratio = 0.3\nyield_strength = \"{strength}\"\n{own}");
+    let scene = SCENE
+        .replace("laws = [\"hertz\"]", laws)
+        .replace("poisson_ratio = 0.3", &material)
+        .replace("4 ms", "20 ms");
     std::fs::write(folder.path().join("s.toml"), scene).unwrap();
     let output = run(folder.path(), &["bed", "s.toml", "--out", "o"]);
     if output.status.code() == Some(2) {

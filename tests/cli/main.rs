@@ -5,6 +5,7 @@ mod bed_resume;
 mod bed_shipped;
 mod cost;
 mod discover;
+mod discover_study;
 mod guide;
 mod help;
 mod impact;

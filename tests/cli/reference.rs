@@ -437,18 +437,10 @@ fn every_column_of_every_file_has_its_line_and_no_other() {
         mean_temperature_k: 300.0,
     });
     let value = serde_json::to_value(&summary).unwrap();
-    assert_eq!(
-        reference["cylinder of summary.json"],
-        keys(&value["cylinder"].to_string())
-    );
-    assert_eq!(
-        reference["heating of summary.json"],
-        keys(&value["heating"].to_string())
-    );
-    assert_eq!(
-        reference["tangential of summary.json"],
-        keys(&value["tangential"].to_string())
-    );
+    for part in ["cylinder", "heating", "tangential"] {
+        let described = &reference[&format!("{part} of summary.json")];
+        assert_eq!(*described, keys(&value[part].to_string()), "{part}");
+    }
     // constants of a flow stress stand there where the particle has them
     let mut particle = keys(&value["particle"].to_string());
     particle.extend(Flow::all_constants().iter().map(InSi::key));
