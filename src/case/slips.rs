@@ -34,6 +34,9 @@ const LEAST_STRENGTH: f64 = 1e-5;
 const HEAVY: (f64, f64) = (3500.0, 0.5e9);
 /// Smallest hardening or other stress over the yield strength, unless it is 0: less changes no figure of an impact.
 const LEAST_STRESS: f64 = 1e-3;
+/// Specific heat, J/(kg K): from half of what heavy metals have, and above all numbers meant in J/(g K), to twice that of ice, lithium and
+/// paraffin.
+const HEATS: RangeInclusive<f64> = 50.0..=1e4;
 /// Smallest speed over $\sqrt{E/\rho}$: a flattening of 1e-8 R, some digits above the rounding of positions.
 const LEAST_MACH: f64 = 1e-10;
 /// Largest acceleration of gravity, m/s2.
@@ -70,6 +73,7 @@ fn accepted() -> Vec<(String, String)> {
             "`material.hardening_modulus` and other stresses",
             format!("0, or {LEAST_STRESS} Y to E"),
         ),
+        ("`material.specific_heat`", between(&HEATS, "J/(kg K)")),
         (
             "`impact.velocities`",
             format!(
@@ -265,7 +269,8 @@ fn soft(density: f64, modulus: f64) -> Slip {
     })
 }
 
-/// A yield strength that no solid has beside this modulus, or another stress above the modulus or far below the strength.
+/// A yield strength that no solid has beside this modulus, another stress above the modulus or far below the strength, or a heat
+/// that no solid takes.
 fn flow_slip(constant: &Constant, value: f64, modulus: f64, strength: f64) -> Slip {
     let share = value / modulus;
     let said = |what: &str| Some(format!("E/Y = {} is {what}", significant(1.0 / share, 3)));
@@ -284,6 +289,7 @@ fn flow_slip(constant: &Constant, value: f64, modulus: f64, strength: f64) -> Sl
                 "it is {ratio} of yield_strength, which changes nothing; 0 is none"
             ))
         }
+        Dimension::SpecificHeat => outside(value, &HEATS, constant.dimension.unit()),
         _ => None,
     }
 }

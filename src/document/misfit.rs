@@ -15,6 +15,8 @@ pub fn misfits(kind: &Kind, value: &DeValue) -> usize {
         (Kind::List(item) | Kind::Array(_, item), DeValue::Array(items)) => {
             items.iter().map(|one| misfits(item, one.get_ref())).sum()
         }
+        // brackets left out are a slip, and no sign of another kind of file
+        (Kind::List(item), value) => misfits(item, value),
         (Kind::Axis(item), DeValue::Array(items)) => {
             items.iter().map(|one| misfits(item, one.get_ref())).sum()
         }

@@ -170,6 +170,9 @@ impl Columns {
             if role == Role::Kind {
                 listing.counts_from = usize::from(base == "type");
             }
+            if matches!(role, Role::Radius | Role::Diameter) {
+                listing.tells_unit = unit.is_some();
+            }
             used.push(Column {
                 at,
                 name: (*name).to_owned(),

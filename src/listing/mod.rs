@@ -45,6 +45,8 @@ pub struct Listing {
     pub counts_from: usize,
     /// What is not used of the file, for the user to know.
     pub notes: Vec<String>,
+    /// Whether the file itself says in which unit its radii are.
+    pub tells_unit: bool,
 }
 
 impl Listing {

@@ -16,7 +16,10 @@ pub(super) fn read(bytes: &[u8], meaning: &Meaning) -> Result<Listing, String> {
     if grains.load(&mut tape).is_none() || !agree(&grains) {
         return Err("is not kept of a bed; name the `restart.bin` of one".to_owned());
     }
-    let mut listing = Listing::default();
+    let mut listing = Listing {
+        tells_unit: true,
+        ..Listing::default()
+    };
     for (index, sphere) in grains.spheres.iter().enumerate() {
         let kind = grains.material(index).to_string();
         let kind = listing.kind(&kind);

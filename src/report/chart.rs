@@ -63,6 +63,8 @@ const HEIGHT: f64 = 400.0;
 const LEGEND: f64 = 205.0;
 /// Nominal size; plotters draws 1/1.24 of it.
 const FONT: f64 = 20.0;
+/// Width of a character of a tick's label, on average of digits, over the nominal size.
+const CHARACTER: f64 = 0.5;
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 type Drawn<T = ()> = std::result::Result<T, Box<dyn std::error::Error>>;
@@ -134,11 +136,14 @@ impl Chart {
         let all = || self.series.iter().flat_map(|series| &series.points);
         let x = Scale::new(&self.x, all().map(|point| point.0));
         let y = Scale::new(&self.y, all().map(|point| point.1));
+        let characters = y.ticks.iter().map(|tick| y.label(*tick).chars().count());
+        let widest = CHARACTER * FONT * characters.max().unwrap_or(0) as f64;
         let mut chart = ChartBuilder::on(area)
             .margin(px(12.0))
             .margin_right(px(18.0))
             .x_label_area_size(px(56.0))
-            .y_label_area_size(px(76.0))
+            // ticks, their labels, and the name of the axis beside them
+            .y_label_area_size(px((10.0 + widest + 1.2 * FONT).max(76.0)))
             .build_cartesian_2d(x.clone(), y.clone())?;
         let label = |size| {
             ("sans-serif", px(size))

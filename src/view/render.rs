@@ -22,6 +22,9 @@ const LIGHT: Vector = Vector::new(0.25, -0.75, 1.0);
 const BORDER: f64 = 1.12;
 const WALL: [f64; 3] = [0.90, 0.91, 0.93];
 const BODY: [f64; 3] = [0.52, 0.58, 0.66];
+/// Distance over which a shadow on a wall fades, in grain radii: that of a whole bed on a far wall is a stain, for the walls between
+/// are glass.
+const SHADOW: f64 = 4.0;
 /// How much an edge covers.
 const EDGE: f64 = 0.55;
 
@@ -183,7 +186,7 @@ impl Stage<'_> {
         match facing.max_by(|a, b| a.0.total_cmp(&b.0)) {
             // nothing behind: the last wall closes the view
             Some((distance, normal)) => {
-                let wall = self.lit(&ray, distance, normal, usize::MAX - 1);
+                let wall = self.lit(&ray, distance, normal, usize::MAX - 1, SHADOW);
                 // pale whichever way it faces: shadows show, sides do not compete with grains
                 let shade = 0.8 + 0.2 * wall.own.min(1.0);
                 Seen {
@@ -218,7 +221,13 @@ impl Stage<'_> {
             (grain, Some((index, (distance, normal))))
                 if grain.is_none_or(|(_, nearest)| distance < nearest) =>
             {
-                let lit = self.lit(ray, distance, normal, self.portrait.centres.len() + index);
+                let lit = self.lit(
+                    ray,
+                    distance,
+                    normal,
+                    self.portrait.centres.len() + index,
+                    f64::INFINITY,
+                );
                 Some(Seen {
                     own: 0.0,
                     rest: [0, 1, 2].map(|c| BODY[c] * lit.own + lit.rest[c]),
@@ -229,7 +238,7 @@ impl Stage<'_> {
                 let normal = (ray.point_at(distance) - self.portrait.centres[grain]).normalize();
                 Some(Seen {
                     grain: Some(grain),
-                    ..self.lit(ray, distance, normal, grain)
+                    ..self.lit(ray, distance, normal, grain, f64::INFINITY)
                 })
             }
             _ => None,
@@ -245,14 +254,17 @@ impl Stage<'_> {
         found.map(|(grain, distance)| (grain as usize, distance))
     }
 
-    /// Light on a point: factor of its own colour, and shine.
-    fn lit(&self, ray: &Ray, distance: f64, normal: Vector, what: usize) -> Seen {
+    /// Light on a point: factor of its own colour, and shine. Shadows of what is `fade` away and farther are none.
+    fn lit(&self, ray: &Ray, distance: f64, normal: Vector, what: usize, fade: f64) -> Seen {
         let light = LIGHT.normalize();
         let shadow = Ray::new(ray.point_at(distance) + normal * 1e-5, light);
         let free = self.portrait.bodies.iter().filter(|body| body.free);
-        let mut free = free.filter_map(|body| hit(body, &shadow));
-        let lit = match self.grain(&shadow).is_some() || free.next().is_some() {
-            true => 0.0,
+        let bodies = free.filter_map(|body| hit(body, &shadow));
+        let grain = self.grain(&shadow);
+        let between = bodies.map(|hit| hit.0).chain(grain.map(|hit| hit.1));
+        let nearest = between.fold(f64::INFINITY, f64::min);
+        let lit = match nearest.is_finite() {
+            true => (nearest / fade).min(1.0),
             false => 1.0,
         };
         let diffuse = normal.dot(light).max(0.0) * lit;

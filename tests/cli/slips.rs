@@ -3,7 +3,8 @@
 use crate::program::{impactlaw, message};
 use std::path::Path;
 
-const SCENE: &str = r#"
+/// Grains that fall into a box.
+pub const SCENE: &str = r#"
 laws = ["hertz"]
 seed = 7
 gravity = "9.81 m/s2"
@@ -145,6 +146,102 @@ fn slips_of_units_in_arguments_of_a_law_are_refused() {
     assert!(eval("300 um", &[]).contains("must be less than the radius"));
     let back = ["--max-displacement", "0.5 um"];
     assert!(eval("1 um", &back).contains("must be at most --max-displacement"));
+}
+
+#[test]
+fn slips_of_units_in_arguments_of_inverse_are_refused_before_the_range_of_the_atlas() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    std::fs::write(here.join("m.csv"), "velocity_m_s,restitution\n10,0.6\n").unwrap();
+    let inverse = |density: &str, young: &str, radius: &str| {
+        let arguments = [
+            "inverse",
+            "m.csv",
+            "--young",
+            young,
+            "--poisson",
+            "0.35",
+            "--density",
+            density,
+            "--radius",
+            radius,
+            "--sigma-restitution",
+            "0.01",
+            "--draws",
+            "200",
+        ];
+        let code = match [density, young, radius] {
+            ["8000kg/m3", "100GPa", "250um"] => 0,
+            _ => 2,
+        };
+        said(here, &arguments, code)
+    };
+    for (density, young, radius, argument) in [
+        ("8kg/m3", "100GPa", "250um", "--density"),
+        ("8000kg/m3", "100TPa", "250um", "--young"),
+        ("8000kg/m3", "100GPa", "250m", "--radius"),
+    ] {
+        let text = inverse(density, young, radius);
+        let named = text.contains(argument) && text.contains("check the unit");
+        assert!(named, "{text}");
+        assert!(!here.join("out").exists());
+    }
+    inverse("8000kg/m3", "100GPa", "250um");
+}
+
+#[test]
+fn a_specific_heat_in_joules_per_gram_is_refused_and_one_speed_without_brackets_is_told_to_be_a_list()
+ {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let case = "[particle]\nradius = \"250 um\"\n[material]\ndensity = \"8960 kg/m3\"\nyoung_modulus = \"124 GPa\"\npoisson_ratio = 0.34\nyield_strength = \"90 MPa\"\nhardening_coefficient = \"292 MPa\"\nhardening_exponent = 0.31\nrate_sensitivity = 0.025\nsoftening_exponent = 1.09\nmelting_temperature = \"1356 K\"\nspecific_heat = \"383 J/(kg K)\"\n[impact]\nvelocities = [\"20 m/s\"]\n[accuracy]\ntolerance = 0.2\n";
+    let plan = |text: String, code: i32| {
+        std::fs::write(here.join("cu.toml"), text).unwrap();
+        said(here, &["impact", "cu.toml"], code)
+    };
+    let text = plan(case.replace("383 J", "0.383 J"), 2);
+    assert!(
+        text.contains("check the unit of material.specific_heat"),
+        "{text}"
+    );
+    let text = plan(case.replace("[\"20 m/s\"]", "\"20 m/s\""), 2);
+    let told = text.contains("impact.velocities") && text.contains("expected a list");
+    assert!(told, "{text}");
+    // a study is still told to be one
+    let axis = case.replace("0.34", "[0.3, 0.34]");
+    let text = plan(axis.replace("[\"20 m/s\"]", "\"20 m/s\""), 2);
+    assert!(text.contains("found a study file"), "{text}");
+    assert!(!here.join("out").exists());
+}
+
+#[test]
+fn a_list_of_grains_without_a_unit_is_not_read_in_metres_unasked() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let count = "count = 8\nradius = \"1 mm\"\n";
+    let scene =
+        |file: &str| SCENE.replace(count, &format!("file = {{ path = \"g.csv\"{file} }}\n"));
+    let write = |file: &str, head: &str| {
+        std::fs::write(here.join("scene.toml"), scene(file)).unwrap();
+        std::fs::write(
+            here.join("g.csv"),
+            format!("{head}\n2,2,1.1,1\n6,6,1.1,1\n"),
+        )
+        .unwrap();
+    };
+    write("", "x,y,z,radius");
+    let text = said(here, &["bed", "scene.toml"], 2);
+    let told = text.contains("grains.file.path") && text.contains("`length = \"1 mm\"`");
+    assert!(told && text.contains("a radius is 1 m;"), "{text}");
+    assert!(!here.join("out").exists());
+    for (file, head) in [
+        (", length = \"1 mm\"", "x,y,z,radius"),
+        ("", "x_mm,y_mm,z_mm,radius_mm"),
+    ] {
+        write(file, head);
+        said(here, &["bed", "scene.toml"], 0);
+        std::fs::remove_dir_all(here.join("out")).unwrap();
+    }
 }
 
 #[test]

@@ -8,13 +8,16 @@ use crate::Result;
 use crate::document::keys::{key, keys};
 use crate::error::must_be_one_of;
 use crate::listing::{self, Format, Listed, Listing, Meaning};
-use crate::unit::{Length, Quantity, Velocity};
+use crate::unit::{Length, Quantity, Velocity, engineering};
 use parry3d::math::Vector;
 use serde::Deserialize;
 use std::f64::consts::PI;
+use std::path::Path;
 
 /// Largest overlap over the smaller diameter where the scene does not say: contacts of one grain are no longer apart beyond.
 const OVERLAP: f64 = 0.05;
+/// Largest radius, m, that a file may tell without a unit: in a list in mm, what is read is a thousand times as large.
+const LARGEST_WITHOUT_UNIT: f64 = 0.02;
 /// Largest error of a density or mass in a file: text is often rounded to three digits.
 const DENSITY_ERROR: f64 = 0.01;
 
@@ -62,7 +65,7 @@ keys! {
     FileTable "Grains as a file lists them: places, sizes, velocities, spins, materials, with columns in any order. `radius` and `material` of the group hold where the file tells none, `velocity` and `stir` come on top." {
         path: key("the file", "", "'packing.csv'"),
         format: key("what it is; a `restart.bin` is that of another bed", "`\"csv\"`, `\"lammps-dump\"`, `\"lammps-data\"`, `\"vtp\"`, `\"restart\"`", "'csv'").or("by the ending"),
-        length: key("length that 1 in the file means, where its columns name no unit", "> 0", "'1 mm'").or("`\"1 m\"`"),
+        length: key("length that 1 in the file means, where its columns name no unit; required where radii would be above 2 cm in m", "> 0", "'1 mm'").or("`\"1 m\"`"),
         velocity: key("the same for velocities; required beside `length`", "> 0", "'1 mm/s'").or("`\"1 m/s\"`"),
         frame: key("frame of a dump that holds several", "≥ 1", "1").or("the last"),
         types: key("materials of the `type` 1, 2, ... of the file, or of its `material` 0, 1, ...", "of `materials`", "['steel', 'glass']").or("the group's `material`"),
@@ -85,22 +88,6 @@ impl FileTable {
         radius: Option<f64>,
         files: &mut Files,
     ) -> Result<Vec<(usize, Given)>> {
-        let format = match self.format.or_else(|| Format::of(&self.path)) {
-            Some(format) => format,
-            None => {
-                let endings = Format::ENDINGS.join(", .");
-                let allowed = format!("must end in one of .{endings}; or say its `format`");
-                return Err(at.reject("path", &allowed));
-            }
-        };
-        let meaning = Meaning {
-            length: self.length.map(|q| at.positive("length", q)).transpose()?,
-            velocity: self
-                .velocity
-                .map(|q| at.positive("velocity", q))
-                .transpose()?,
-            frame: self.frame,
-        };
         let overlap = at.document.check(
             &at.name("overlap"),
             self.overlap.unwrap_or(OVERLAP),
@@ -108,19 +95,7 @@ impl FileTable {
             "must lie in [0, 0.25]: the largest overlap of two grains over the smaller diameter",
         )?;
         let path = at.document.resolve(&self.path);
-        let bytes = std::fs::read(&path).map_err(|error| {
-            let allowed = format!(
-                "must name a file that can be read: {}: {error}",
-                path.display()
-            );
-            at.reject("path", &allowed)
-        })?;
-        let listing = listing::read(&bytes, format, &meaning)
-            .map_err(|wrong| at.reject("path", &format!("{} {}", path.display(), wrong)))?;
-        files.insert(self.path.clone(), bytes);
-        for note in &listing.notes {
-            tracing::warn!("{} {note}", path.display());
-        }
+        let listing = self.listing(at, &path, files)?;
         let kinds = self.kinds(at, &listing, materials, alone)?;
         let shift = self.shift.map_or(Vector::ZERO, vector);
         let mut given: Vec<Option<Given>> = vec![None; materials.len()];
@@ -170,6 +145,50 @@ impl FileTable {
         }
         let given = given.into_iter().enumerate();
         Ok(given.filter_map(|(k, given)| Some((k, given?))).collect())
+    }
+
+    /// What the file lists.
+    fn listing(&self, at: &At, path: &Path, files: &mut Files) -> Result<Listing> {
+        let format = match self.format.or_else(|| Format::of(&self.path)) {
+            Some(format) => format,
+            None => {
+                let endings = Format::ENDINGS.join(", .");
+                let allowed = format!("must end in one of .{endings}; or say its `format`");
+                return Err(at.reject("path", &allowed));
+            }
+        };
+        let meaning = Meaning {
+            length: self.length.map(|q| at.positive("length", q)).transpose()?,
+            velocity: self
+                .velocity
+                .map(|q| at.positive("velocity", q))
+                .transpose()?,
+            frame: self.frame,
+        };
+        let bytes = std::fs::read(&path).map_err(|error| {
+            let allowed = format!(
+                "must name a file that can be read: {}: {error}",
+                path.display()
+            );
+            at.reject("path", &allowed)
+        })?;
+        let listing = listing::read(&bytes, format, &meaning)
+            .map_err(|wrong| at.reject("path", &format!("{} {}", path.display(), wrong)))?;
+        files.insert(self.path.clone(), bytes);
+        for note in &listing.notes {
+            tracing::warn!("{} {note}", path.display());
+        }
+        let radii = listing.grains.iter().filter_map(|grain| grain.radius);
+        let largest = radii.fold(0.0, f64::max);
+        if !listing.tells_unit && self.length.is_none() && largest > LARGEST_WITHOUT_UNIT {
+            let allowed = format!(
+                "{} names no unit of length, and 1 is taken for 1 m: a radius is {}; say what 1 means: `length = \"1 mm\"`, or `length = \"1 m\"` if that is meant",
+                path.display(),
+                engineering(largest, "m", 3)
+            );
+            return Err(at.reject("path", &allowed));
+        }
+        Ok(listing)
     }
 
     /// Material of each kind of grain in the file.

@@ -324,7 +324,8 @@ fn quantities(frames: &[Frame]) -> Vec<Quantity> {
 
 /// The frame that shows most: of those in which most of the film's grains touch something, the one whose touching grains have
 /// the brightest colours, all quantities together. A bed at the height of its compression, a silo that flows, a drum that
-/// turns, a body as it plunges in: not a bed that is still filled, nor one at rest.
+/// turns, a body as it plunges in: not a bed that is still filled, nor one at rest. The first of several stages makes the bed
+/// that the others are about, and is shown only where nothing touches in them.
 #[must_use]
 pub fn shows_most(frames: &[Frame]) -> usize {
     let quantities = quantities(frames);
@@ -346,9 +347,11 @@ pub fn shows_most(frames: &[Frame]) -> usize {
         };
         quantities.iter().zip(values).map(sum).sum()
     };
-    let mut best = (0, 0.0);
+    let first = frames.first().map(|frame| &frame.stage);
+    let mut best = (0, (false, 0.0));
     for (number, frame) in frames.iter().enumerate() {
-        let now = brightness(frame);
+        let bright = brightness(frame);
+        let now = (bright > 0.0 && Some(&frame.stage) != first, bright);
         // of two alike the later one
         if now >= best.1 {
             best = (number, now);
@@ -463,6 +466,19 @@ mod tests {
         };
         let frames = [few, frame(0.3, 0.0), frame(0.2, 0.1)];
         assert_eq!(shows_most(&frames), 2);
+        // filled in a rush, then flowing out slowly until nothing touches; nothing but filled
+        let staged = |stage: &str, squeeze: f32, speed: f32| Frame {
+            stage: stage.to_owned(),
+            ..frame(squeeze, speed)
+        };
+        let frames = [
+            staged("fill", 1.0, 1.0),
+            staged("discharge", 0.1, 0.1),
+            staged("discharge", 0.1, 0.2),
+            staged("discharge", 0.0, 1.0),
+        ];
+        assert_eq!(shows_most(&frames), 2);
+        assert_eq!(shows_most(&[frames[0].clone(), frames[3].clone()]), 0);
         assert_eq!(shows_most(&[]), 0);
     }
 
