@@ -132,6 +132,17 @@ impl Error {
         }
     }
 
+    /// A value of a table that is read without its text: `key` says where it stands.
+    pub fn in_table(path: &Path, key: &str, found: impl Into<String>, allowed: &str) -> Error {
+        Error::Value {
+            path: path.to_owned(),
+            key: key.to_owned(),
+            found: found.into(),
+            allowed: allowed.to_owned(),
+            place: None,
+        }
+    }
+
     /// File error with its path; for `map_err`.
     pub fn file(action: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> Error {
         let path = path.to_owned();

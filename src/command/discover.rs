@@ -216,16 +216,15 @@ impl Study {
             table = table.some(&rows);
         }
         if table.rows() < FEWEST {
-            return Err(Error::Value {
-                path: path.to_owned(),
-                key: "rows".to_owned(),
-                found: format!(
+            return Err(Error::in_table(
+                path,
+                "rows",
+                format!(
                     "{} of {all} that yield and lie within --where",
                     table.rows()
                 ),
-                allowed: format!("must be at least {FEWEST}: run a study of more cases"),
-                place: None,
-            });
+                &format!("must be at least {FEWEST}: run a study of more cases"),
+            ));
         }
         let names: Vec<&str> = match args.target.is_empty() {
             true => FIGURES

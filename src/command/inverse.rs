@@ -111,18 +111,11 @@ impl Command for InverseArgs {
         let unknowns = self.unknowns()?;
         let uncertainty = self.uncertainty()?;
         let (known, radius) = self.known(unknowns)?;
-        let taken = Taken {
+        let (hash, read) = self.measured(Taken {
             radius,
             uncertainty,
             cap: self.cap,
-        };
-        let path = &self.measurements;
-        let bytes = std::fs::read(path).map_err(Error::file("read", path))?;
-        let hash = sha256([&bytes]);
-        let read = Measurements::parse(&String::from_utf8_lossy(&bytes), path, &taken)?;
-        for column in &read.unused {
-            tracing::warn!("column `{column}` is not used");
-        }
+        })?;
         let velocities = read.velocities();
         let atlas = Atlas::built_in()?;
         let mut problem = Problem::new(&atlas, known, read.all, unknowns)?;
@@ -133,7 +126,7 @@ impl Command for InverseArgs {
             radius: self.sigma_radius,
             atlas: false,
         };
-        let name = path.file_stem().unwrap_or_default().to_string_lossy();
+        let name = self.measurements.file_stem().unwrap_or_default();
         let found = FoundCase {
             radius,
             velocities: &velocities,
@@ -157,7 +150,7 @@ impl Command for InverseArgs {
             true => measured,
             false => intervals(&problem, &estimate, &with_atlas)?,
         };
-        let out = output_folder(self.out.as_deref(), &name)?;
+        let out = output_folder(self.out.as_deref(), &name.to_string_lossy())?;
         context.open_log(&out, "inverse", &hash);
         let (mut rounds, mut settled) = (Vec::new(), true);
         if self.refine {
@@ -169,7 +162,6 @@ impl Command for InverseArgs {
             measured = intervals(&problem, &estimate, &sampling)?;
             whole = measured;
         }
-        let material = known.material(&estimate.point);
         let asked = Asked {
             sampling,
             velocity: self.sigma_velocity,
@@ -179,13 +171,8 @@ impl Command for InverseArgs {
         };
         let both = [&measured, &whole];
         let report = Report::of(&asked, &problem, &estimate, both, first, &rounds);
-        let provenance = context.provenance(&hash);
-        let case = format!("# {provenance}\n{}", found.text(&material)?);
-        write_atomic(&out.join("case.toml"), case.as_bytes())?;
-        let target = out.join("inverse.toml");
-        let text = toml::to_string(&report)
-            .map_err(|error| Error::file("write", &target)(std::io::Error::other(error)))?;
-        write_atomic(&target, format!("# {provenance}\n{text}").as_bytes())?;
+        let case = found.text(&known.material(&estimate.point))?;
+        let target = write(&out, &context.provenance(&hash), &report, &case)?;
         match self.json {
             true => print_json(&report)?,
             false => context.say(&format!(
@@ -204,7 +191,29 @@ impl Command for InverseArgs {
     }
 }
 
+/// Writes `case.toml` and `inverse.toml`; the path of the latter.
+fn write(out: &Path, provenance: &str, report: &Report, case: &str) -> Result<PathBuf> {
+    let case = format!("# {provenance}\n{case}");
+    write_atomic(&out.join("case.toml"), case.as_bytes())?;
+    let target = out.join("inverse.toml");
+    let text = toml::to_string(report)
+        .map_err(|error| Error::file("write", &target)(std::io::Error::other(error)))?;
+    write_atomic(&target, format!("# {provenance}\n{text}").as_bytes())?;
+    Ok(target)
+}
+
 impl InverseArgs {
+    /// The measurements, and the SHA-256 of their file.
+    fn measured(&self, taken: Taken) -> Result<(String, Measurements)> {
+        let path = &self.measurements;
+        let bytes = std::fs::read(path).map_err(Error::file("read", path))?;
+        let read = Measurements::parse(&String::from_utf8_lossy(&bytes), path, &taken)?;
+        for column in &read.unused {
+            tracing::warn!("column `{column}` is not used");
+        }
+        Ok((sha256([&bytes]), read))
+    }
+
     fn unknowns(&self) -> Result<Unknowns> {
         let hardening = self.estimate.contains(&Sought::Hardening);
         if !self.estimate.contains(&Sought::Yield) {

@@ -269,8 +269,8 @@ fn table(rows: &[(&Case, Summary)], provenance: &str, path: &Path) -> Result<Vec
     rows_text(provenance, &cells).map_err(Error::file("write", path))
 }
 
-/// Keys and values of a case and of every figure of its run in the order of `summary.json` (`velocity_m_s` first), but for
-/// `particle`, `cylinder`, `heating`, `tangential`, `warnings` and the wall time; the status as one word, its reason after a colon.
+/// Keys and values of a case and of every figure of its run in the order of `summary.json` (`velocity_m_s` first), but for its
+/// tables, the warnings and the wall time; the status as one word, its reason after a colon.
 fn row(case: &Case, summary: &Summary) -> serde_json::Result<Vec<(String, Cell)>> {
     let m = &case.material;
     let flow = FlowConstants::<InSi>::of(m.flow.as_ref());
@@ -298,19 +298,9 @@ fn row(case: &Case, summary: &Summary) -> serde_json::Result<Vec<(String, Cell)>
         line.strip_prefix("  \"")?
             .split_once("\":")
             .map(|(key, _)| key)
-            // whose impact it is, the case's own columns say; a wall time is no figure of the impact
-            .filter(|key| {
-                ![
-                    "particle",
-                    "cylinder",
-                    "heating",
-                    "tangential",
-                    "warnings",
-                    "wall_s",
-                    "status",
-                ]
-                .contains(key)
-            })
+            // tables have no column: whose impact it is, the case's own say; a wall time is no figure of the impact
+            .filter(|key| !value[key].is_object() && !value[key].is_array())
+            .filter(|key| !["wall_s", "status"].contains(key))
     });
     row.extend(keys.map(|key| (key.to_owned(), cell(&value[key]))));
     let heating = summary.heating.as_ref();

@@ -88,17 +88,9 @@ impl Candidates {
         }
     }
 
-    /// The `count` candidates that are worth most, by their rows: of formulas `fronts` for `targets` over `runs`.
-    #[must_use]
-    pub fn chosen(
-        &self,
-        runs: &Runs,
-        targets: &[(&Target, &[Entry])],
-        tolerance: f64,
-        count: usize,
-    ) -> Vec<usize> {
-        let n = self.runs.columns.rows;
-        let mut spread = vec![0.0; n];
+    /// How far the formulas of all figures are apart at each candidate, over the error of the data.
+    fn spread(&self, targets: &[(&Target, &[Entry])], tolerance: f64) -> Vec<f64> {
+        let mut spread = vec![0.0; self.runs.columns.rows];
         for (target, front) in targets {
             let mut order: Vec<&Entry> = front.iter().collect();
             order.sort_by(|a, b| a.length.total_cmp(&b.length));
@@ -127,6 +119,20 @@ impl Candidates {
                 };
             }
         }
+        spread
+    }
+
+    /// The `count` candidates that are worth most, by their rows: of formulas `fronts` for `targets` over `runs`.
+    #[must_use]
+    pub fn chosen(
+        &self,
+        runs: &Runs,
+        targets: &[(&Target, &[Entry])],
+        tolerance: f64,
+        count: usize,
+    ) -> Vec<usize> {
+        let n = self.runs.columns.rows;
+        let spread = self.spread(targets, tolerance);
         let scale: Vec<f64> = runs
             .columns
             .logs

@@ -238,14 +238,12 @@ impl Inputs {
                 continue;
             }
             if let Some(row) = column.values.iter().position(|v| !(*v > 0.0)) {
-                return Err(Error::Value {
-                    path: table.path.clone(),
-                    key: column.name.clone(),
-                    found: format!("{} in line {}", column.values[row], table.lines[row]),
-                    allowed: "must be positive where it varies: products of powers are looked for"
-                        .to_owned(),
-                    place: None,
-                });
+                return Err(Error::in_table(
+                    &table.path,
+                    &column.name,
+                    format!("{} in line {}", column.values[row], table.lines[row]),
+                    "must be positive where it varies: products of powers are looked for",
+                ));
             }
             match dependence(column, &free) {
                 Some(found) => dependent.push(found),

@@ -144,63 +144,7 @@ impl Table {
     /// # Errors
     /// As [`Table::read`].
     pub fn parse(text: &str, path: &Path) -> Result<Self> {
-        let refuse = |key: &str, found: String, allowed: &str| Error::Value {
-            path: path.to_owned(),
-            key: key.to_owned(),
-            found,
-            allowed: allowed.to_owned(),
-            place: None,
-        };
-        let mut reader = csv::ReaderBuilder::new()
-            .comment(Some(b'#'))
-            .from_reader(text.as_bytes());
-        let broken = |error: csv::Error| {
-            let at = error.position().map_or(0, csv::Position::line);
-            refuse(
-                "table",
-                format!("line {at}: {error}"),
-                "must be the results.csv of a study",
-            )
-        };
-        let heads: Vec<String> = reader
-            .headers()
-            .map_err(broken)?
-            .iter()
-            .map(|name| name.trim().to_owned())
-            .collect();
-        let named: Vec<Option<Named>> = heads.iter().map(|name| Named::of(name)).collect();
-        let names: Vec<String> = heads
-            .iter()
-            .zip(&named)
-            .map(|(head, named)| named.as_ref().map_or(head, |named| &named.name).clone())
-            .collect();
-        for (i, name) in names.iter().enumerate() {
-            if names[..i].contains(name) {
-                return Err(refuse(
-                    name,
-                    "the column twice".to_owned(),
-                    "every column once, whatever its unit",
-                ));
-            }
-        }
-        let derived = match RAW.iter().all(|raw| names.iter().any(|name| name == raw)) {
-            true => Groups::column_names(),
-            false => Vec::new(),
-        };
-        let rows = reader
-            .records()
-            .collect::<std::result::Result<Vec<_>, _>>()
-            .map_err(broken)?;
-        let status = names.iter().position(|name| name == STATUS);
-        let ok = |row: &&csv::StringRecord| status.is_none_or(|at| &row[at] == "ok");
-        let good: Vec<&csv::StringRecord> = rows.iter().filter(ok).collect();
-        if good.len() < 2 {
-            return Err(refuse(
-                "rows",
-                format!("{} with status ok", good.len()),
-                "an equation needs many: run a study of more cases",
-            ));
-        }
+        let text = Text::of(text, path)?;
         let mut table = Table {
             path: path.to_owned(),
             inputs: Vec::new(),
@@ -208,113 +152,35 @@ impl Table {
             left_out: Vec::new(),
             converted: Vec::new(),
             tolerance: None,
-            failed: rows.len() - good.len(),
-            lines: good
-                .iter()
-                .map(|row| row.position().map_or(0, csv::Position::line))
-                .collect(),
+            failed: text.failed,
+            lines: text.lines.clone(),
         };
-        for (at, name) in names.iter().enumerate().filter(|(_, name)| *name != STATUS) {
-            if name == NAME || derived.contains(name) {
-                table.left_out.push(name.clone());
+        let derived = match RAW
+            .iter()
+            .all(|raw| text.names.iter().any(|name| name == raw))
+        {
+            true => Groups::column_names(),
+            false => Vec::new(),
+        };
+        for (at, name) in text.names.iter().enumerate() {
+            if name == STATUS {
                 continue;
             }
-            let cells: Vec<&str> = good.iter().map(|row| row[at].trim()).collect();
-            let void = |cell: &&str| cell.is_empty() || cell.eq_ignore_ascii_case("nan");
-            let figure = FIGURES.contains(&&name[..]);
-            if cells.iter().all(|cell| cell.is_empty()) {
-                return Err(refuse(
-                    name,
-                    "an empty column".to_owned(),
-                    "a value in every row",
-                ));
-            }
-            let word = |cell: &&str| !void(cell) && cell.parse::<f64>().is_err();
-            // constants of flow stresses that no case has, and names of runs
-            if (!figure && cells.iter().all(void)) || cells.iter().all(word) {
+            let left_out = name == NAME || derived.contains(name);
+            let Some(values) = (if left_out { None } else { text.numbers(at)? }) else {
                 table.left_out.push(name.clone());
                 continue;
-            }
-            let mut values = Vec::with_capacity(cells.len());
-            for (row, cell) in cells.iter().enumerate() {
-                match cell.parse::<f64>() {
-                    Ok(value) if value.is_finite() => values.push(value),
-                    // counts and times of runs are not looked at
-                    _ if figure && !cell.is_empty() && !word(cell) => values.push(f64::NAN),
-                    _ => {
-                        return Err(refuse(
-                            name,
-                            format!("`{cell}` in line {}", table.lines[row]),
-                            "must be a number in every row",
-                        ));
-                    }
-                }
-            }
+            };
             if name == TOLERANCE {
-                let column = Column {
-                    name: name.clone(),
-                    dimension: Dimension::default(),
-                    values,
-                };
-                let [low, high] = column.range();
-                if !(low > 0.0 && high <= 0.2) {
-                    return Err(refuse(
-                        name,
-                        format!("{low} to {high}"),
-                        "must lie in (0, 0.2], or be left out",
-                    ));
-                }
-                if !column.constant() {
-                    return Err(refuse(
-                        name,
-                        format!("{low} to {high}"),
-                        "must be the same in every row: runs of one error make an equation",
-                    ));
-                }
-                table.tolerance = column.values.first().copied();
+                table.tolerance = Some(text.tolerance(at, values)?);
                 continue;
             }
-            let Some(unit) = &named[at] else {
-                return Err(refuse(
-                    name,
-                    "no unit known at the end of its name".to_owned(),
-                    &format!(
-                        "must end in a unit ({}), or, without one, in one of {}",
-                        Named::known().join(", "),
-                        Dimension::bare().join(", ")
-                    ),
-                ));
-            };
-            if unit.factor != 1.0 {
-                values.iter_mut().for_each(|value| *value *= unit.factor);
-                if let Some(row) = values.iter().position(|value| value.is_infinite()) {
-                    return Err(refuse(
-                        &heads[at],
-                        format!("`{}` in line {}", cells[row], table.lines[row]),
-                        "must be a number in SI units too",
-                    ));
-                }
+            let column = text.column(at, values)?;
+            if *name != text.heads[at] {
+                let pair = (text.heads[at].clone(), name.clone());
+                table.converted.push(pair);
             }
-            if let Some((_, least, most, allowed)) = BOUNDS.iter().find(|bound| bound.0 == name) {
-                let beyond =
-                    |value: &f64| !(value.is_nan() || least.allows(*value) && value <= most);
-                if let Some(row) = values.iter().position(beyond) {
-                    return Err(refuse(
-                        &heads[at],
-                        format!("`{}` in line {}", cells[row], table.lines[row]),
-                        allowed,
-                    ));
-                }
-            }
-            if *name != heads[at] {
-                table.converted.push((heads[at].clone(), name.clone()));
-            }
-            let column = Column {
-                name: name.clone(),
-                dimension: unit.dimension,
-                values,
-            };
-            match figure {
+            match is_figure(name) {
                 true => table.figures.push(column),
                 false => table.inputs.push(column),
             }
@@ -324,7 +190,7 @@ impl Table {
                 .iter()
                 .find(|other| !one.constant() && other.values == one.values);
             if let Some(twin) = twin {
-                return Err(refuse(
+                return Err(text.refuse(
                     &one.name,
                     format!("the values of `{}`", twin.name),
                     "two columns that never differ cannot be told apart: take one out",
@@ -345,13 +211,8 @@ impl Table {
     /// # Errors
     /// [`Error::Value`] when there is none, it has a row without value, or always the same.
     pub fn figure(&self, name: &str) -> Result<&Column> {
-        let refuse = |found: String, allowed: String| Error::Value {
-            path: self.path.clone(),
-            key: name.to_owned(),
-            found,
-            allowed,
-            place: None,
-        };
+        let refuse =
+            |found: String, allowed: String| Error::in_table(&self.path, name, found, &allowed);
         let Some(column) = self.figures.iter().find(|column| column.name == name) else {
             let names: Vec<&str> = self.figures.iter().map(|c| &c.name[..]).collect();
             return Err(refuse(
@@ -396,5 +257,176 @@ impl Table {
     #[must_use]
     pub fn rows(&self) -> usize {
         self.inputs.first().map_or(0, |column| column.values.len())
+    }
+}
+
+/// Whether a column is a figure of the impact.
+fn is_figure(name: &str) -> bool {
+    FIGURES.contains(&name)
+}
+
+/// Whether a cell holds no number on purpose.
+fn is_void(cell: &&str) -> bool {
+    cell.is_empty() || cell.eq_ignore_ascii_case("nan")
+}
+
+/// Whether a cell holds something else than a number.
+fn is_word(cell: &&str) -> bool {
+    !is_void(cell) && cell.parse::<f64>().is_err()
+}
+
+/// A table as text: its columns by name, and the rows that ended well.
+struct Text<'a> {
+    path: &'a Path,
+    /// Names as they are written.
+    heads: Vec<String>,
+    /// Names in SI units.
+    names: Vec<String>,
+    /// What the names say of their numbers.
+    named: Vec<Option<Named>>,
+    rows: Vec<csv::StringRecord>,
+    /// Line of each row.
+    lines: Vec<u64>,
+    /// Rows that did not end well.
+    failed: usize,
+}
+
+impl<'a> Text<'a> {
+    fn of(text: &str, path: &'a Path) -> Result<Self> {
+        let mut reader = csv::ReaderBuilder::new()
+            .comment(Some(b'#'))
+            .from_reader(text.as_bytes());
+        let broken = |error: csv::Error| {
+            let at = error.position().map_or(0, csv::Position::line);
+            let found = format!("line {at}: {error}");
+            Error::in_table(path, "table", found, "must be the results.csv of a study")
+        };
+        let heads = reader.headers().map_err(broken)?;
+        let heads: Vec<String> = heads.iter().map(|name| name.trim().to_owned()).collect();
+        let named: Vec<Option<Named>> = heads.iter().map(|name| Named::of(name)).collect();
+        let names: Vec<String> = heads
+            .iter()
+            .zip(&named)
+            .map(|(head, named)| named.as_ref().map_or(head, |named| &named.name).clone())
+            .collect();
+        for (i, name) in names.iter().enumerate() {
+            if names[..i].contains(name) {
+                let found = "the column twice".to_owned();
+                return Err(Error::in_table(
+                    path,
+                    name,
+                    found,
+                    "every column once, whatever its unit",
+                ));
+            }
+        }
+        let all = reader.records().collect::<std::result::Result<Vec<_>, _>>();
+        let all = all.map_err(broken)?;
+        let count = all.len();
+        let status = names.iter().position(|name| name == STATUS);
+        let ok = |row: &csv::StringRecord| status.is_none_or(|at| &row[at] == "ok");
+        let rows: Vec<csv::StringRecord> = all.into_iter().filter(ok).collect();
+        if rows.len() < 2 {
+            let found = format!("{} with status ok", rows.len());
+            let allowed = "an equation needs many: run a study of more cases";
+            return Err(Error::in_table(path, "rows", found, allowed));
+        }
+        let line = |row: &csv::StringRecord| row.position().map_or(0, csv::Position::line);
+        Ok(Text {
+            path,
+            heads,
+            names,
+            named,
+            lines: rows.iter().map(line).collect(),
+            failed: count - rows.len(),
+            rows,
+        })
+    }
+
+    fn refuse(&self, key: &str, found: String, allowed: &str) -> Error {
+        Error::in_table(self.path, key, found, allowed)
+    }
+
+    /// Refusal of a cell.
+    fn refuse_cell(&self, key: &str, at: usize, row: usize, allowed: &str) -> Error {
+        let cell = self.rows[row][at].trim();
+        let found = format!("`{cell}` in line {}", self.lines[row]);
+        self.refuse(key, found, allowed)
+    }
+
+    /// Numbers of a column as they are written; none of one that holds words, or nothing that a case has.
+    fn numbers(&self, at: usize) -> Result<Option<Vec<f64>>> {
+        let name = &self.names[at];
+        let cells: Vec<&str> = self.rows.iter().map(|row| row[at].trim()).collect();
+        let figure = is_figure(name);
+        if cells.iter().all(|cell| cell.is_empty()) {
+            return Err(self.refuse(name, "an empty column".to_owned(), "a value in every row"));
+        }
+        // constants of flow stresses that no case has, and names of runs
+        if (!figure && cells.iter().all(is_void)) || cells.iter().all(is_word) {
+            return Ok(None);
+        }
+        let mut values = Vec::with_capacity(cells.len());
+        for (row, cell) in cells.iter().enumerate() {
+            match cell.parse::<f64>() {
+                Ok(value) if value.is_finite() => values.push(value),
+                // counts and times of runs are not looked at
+                _ if figure && !cell.is_empty() && !is_word(cell) => values.push(f64::NAN),
+                _ => return Err(self.refuse_cell(name, at, row, "must be a number in every row")),
+            }
+        }
+        Ok(Some(values))
+    }
+
+    /// The tolerance that all runs were planned for.
+    fn tolerance(&self, at: usize, values: Vec<f64>) -> Result<f64> {
+        let column = Column {
+            name: self.names[at].clone(),
+            dimension: Dimension::default(),
+            values,
+        };
+        let [low, high] = column.range();
+        let found = format!("{low} to {high}");
+        if !(low > 0.0 && high <= 0.2) {
+            return Err(self.refuse(&column.name, found, "must lie in (0, 0.2], or be left out"));
+        }
+        if !column.constant() {
+            let allowed = "must be the same in every row: runs of one error make an equation";
+            return Err(self.refuse(&column.name, found, allowed));
+        }
+        Ok(low)
+    }
+
+    /// A column in SI units, of its numbers as they are written.
+    fn column(&self, at: usize, mut values: Vec<f64>) -> Result<Column> {
+        let (name, head) = (&self.names[at], &self.heads[at]);
+        let Some(unit) = &self.named[at] else {
+            return Err(self.refuse(
+                name,
+                "no unit known at the end of its name".to_owned(),
+                &format!(
+                    "must end in a unit ({}), or, without one, in one of {}",
+                    Named::known().join(", "),
+                    Dimension::bare().join(", ")
+                ),
+            ));
+        };
+        if unit.factor != 1.0 {
+            values.iter_mut().for_each(|value| *value *= unit.factor);
+            if let Some(row) = values.iter().position(|value| value.is_infinite()) {
+                return Err(self.refuse_cell(head, at, row, "must be a number in SI units too"));
+            }
+        }
+        if let Some((_, least, most, allowed)) = BOUNDS.iter().find(|bound| bound.0 == name) {
+            let beyond = |value: &f64| !(value.is_nan() || least.allows(*value) && value <= most);
+            if let Some(row) = values.iter().position(beyond) {
+                return Err(self.refuse_cell(head, at, row, allowed));
+            }
+        }
+        Ok(Column {
+            name: name.clone(),
+            dimension: unit.dimension,
+            values,
+        })
     }
 }

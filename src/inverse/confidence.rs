@@ -29,7 +29,7 @@ pub struct Sampling {
     pub atlas: bool,
 }
 
-/// 95 % interval of Y and H, and the standard deviation of ln Y.
+/// 95 % intervals of Y and H.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interval {
     /// Of Y, Pa.
@@ -44,6 +44,7 @@ const TAIL: f64 = 0.025;
 const STEPS: usize = 12;
 /// Change of the logarithms that counts as settled.
 const SETTLED: f64 = 1e-5;
+
 /// Slopes of the rows over the numbers, over the deviations.
 struct Slopes {
     columns: DMatrix<f64>,

@@ -272,7 +272,13 @@ impl<'a> Problem<'a> {
     /// [`Error::Refused`] where it lies at an end of the atlas' range, and for a row that tells nothing at the estimate.
     pub fn estimate(&self) -> Result<Estimate> {
         let values: Vec<f64> = self.rows.iter().map(|row| row.value).collect();
-        let nothing = || refuse("measurements", "no material of the atlas".to_owned(), "");
+        let nothing = || {
+            refuse(
+                "measurements",
+                "no material of the atlas that gives them".to_owned(),
+                "check modulus, density and units, or leave out the fastest and the slowest rows",
+            )
+        };
         let mut sigmas: Vec<f64> = self.rows.iter().map(|r| r.sigma.unwrap_or(1.0)).collect();
         let (mut point, mut chi_square) = self.nearest(&values, &sigmas).ok_or_else(nothing)?;
         let by_scatter = self.rows.iter().any(|row| row.sigma.is_none());

@@ -65,12 +65,9 @@ impl<'a> Table<'a> {
             .delimiter(between)
             .trim(csv::Trim::All)
             .from_reader(text.as_bytes());
-        let broken = |error: csv::Error| Error::Value {
-            path: path.to_owned(),
-            key: "table".to_owned(),
-            found: error.to_string(),
-            allowed: "must be a table with a header and as many values in each row".to_owned(),
-            place: None,
+        let broken = |error: csv::Error| {
+            let allowed = "must be a table with a header and as many values in each row";
+            Error::in_table(path, "table", error.to_string(), allowed)
         };
         let heads = reader.headers().map_err(broken)?.clone();
         table.heads = heads.iter().map(str::to_owned).collect();
@@ -138,13 +135,7 @@ impl<'a> Table<'a> {
     /// Refusal of the table.
     #[must_use]
     pub fn refuse(&self, key: &str, found: &str, allowed: &str) -> Error {
-        Error::Value {
-            path: self.path.to_owned(),
-            key: key.to_owned(),
-            found: found.to_owned(),
-            allowed: allowed.to_owned(),
-            place: None,
-        }
+        Error::in_table(self.path, key, found, allowed)
     }
 
     /// Refusal of a value of a row.

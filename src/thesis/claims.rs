@@ -1,7 +1,7 @@
 //! Where the thesis misreads the physics: each reading with what the data of the study say of it, and whether they bear that out.
 
 use super::data::{Data, LARGEST, Row};
-use super::equations::{Equation, beyond, wu};
+use super::equations::{Equation, beyond};
 use super::score::{Score, quantile, refit};
 use super::tables::{FORCES, FORCES_OF, SIZES};
 use crate::unit::significant;
@@ -215,7 +215,10 @@ fn power(data: &Data) -> Option<Claim> {
 /// 4-9 has no limit at first yield.
 fn limit(data: &Data) -> Option<Claim> {
     let ratios = data.distinct(Row::young_over_yield);
-    let of = |ratio: f64| 2.85 * ratio.powf(-0.325);
+    let &[first, exponent, ..] = Equation::numbered("4-9")?.constants else {
+        return None;
+    };
+    let of = |ratio: f64| first * ratio.powf(exponent);
     let (soft, stiff) = (*ratios.first()?, *ratios.last()?);
     let rows = data.usable(|row| (0.09..0.16).contains(&row.severity()) && row.inside());
     let same = sorted(
@@ -224,7 +227,7 @@ fn limit(data: &Data) -> Option<Claim> {
     );
     let other = sorted(
         rows.iter()
-            .map(|row| row.restitution * row.young_over_yield().powf(0.325)),
+            .map(|row| row.restitution * row.young_over_yield().powf(-exponent)),
     );
     if same.len() < 4 {
         return None;
@@ -256,7 +259,7 @@ fn wu_criticised(data: &Data) -> Option<Claim> {
         });
         sorted(
             rows.iter()
-                .map(|row| 0.62 * wu(row).powf(-0.5) / row.restitution),
+                .map(|row| (equation.form)(row, equation.constants) / row.restitution),
         )
     };
     let (slow, fast) = (ratio(0.01, 0.1), ratio(0.3, LARGEST * 1.000_001));

@@ -115,6 +115,34 @@ impl Row {
         PI * self.radius.powi(2) * (self.strength * self.density).sqrt() * self.velocity
     }
 
+    /// What of it no impact has, and what is allowed.
+    fn flaw(&self) -> Option<[&'static str; 2]> {
+        let inputs = [
+            self.density,
+            self.young_modulus,
+            self.strength,
+            self.radius,
+            self.velocity,
+        ];
+        let positive = |x: &f64| *x > 0.0 && x.is_finite();
+        if !inputs.iter().all(positive) || !(0.0..0.5).contains(&self.poisson_ratio) {
+            let allowed =
+                "density, moduli, radius and speed must be above 0, Poisson's ratio in [0, 0.5)";
+            return Some(["an input that is no positive number", allowed]);
+        }
+        let figures = [
+            self.restitution,
+            self.force,
+            self.displacement,
+            self.compression,
+            self.strain,
+            self.work,
+        ];
+        let missing = self.ok() && !figures.iter().all(|x| x.is_finite());
+        let found = "a figure without number in a row with status ok";
+        missing.then_some([found, "must be a number"])
+    }
+
     /// Whether its figures can be used.
     #[must_use]
     pub fn ok(&self) -> bool {
@@ -172,17 +200,6 @@ fn tells_flow(column: &str) -> bool {
     others.any(|constant| InSi::key(constant) == column)
 }
 
-/// Refusal of a table.
-fn refuse(path: &Path, key: &str, found: String, allowed: &str) -> Error {
-    Error::Value {
-        path: path.to_owned(),
-        key: key.to_owned(),
-        found,
-        allowed: allowed.to_owned(),
-        place: None,
-    }
-}
-
 /// Columns of a table by their SI names.
 struct Columns<'a> {
     path: &'a Path,
@@ -203,7 +220,7 @@ impl<'a> Columns<'a> {
         for name in INPUTS.iter().chain(&FIGURES) {
             if !named.iter().any(|(known, _)| known == name) {
                 let allowed = "must be there: a report needs the results.csv of a study";
-                return Err(refuse(path, name, "no such column".to_owned(), allowed));
+                return Err(Error::in_table(path, name, "no such column", allowed));
             }
         }
         let is_other = |i: &usize| OBLIQUE.contains(&&named[*i].0[..]) || tells_flow(&named[*i].0);
@@ -243,14 +260,13 @@ impl<'a> Columns<'a> {
         let line = record.position().map_or(0, csv::Position::line);
         let at = |found: &str, allowed: &str| {
             let key = format!("line {line}");
-            Err(refuse(self.path, &key, found.to_owned(), allowed))
+            Err(Error::in_table(self.path, &key, found, allowed))
         };
-        let written = |name: &&&str| place(name).is_some_and(|at| !cell(at).is_empty());
-        if let Some(name) = INPUTS
-            .iter()
-            .filter(written)
-            .find(|name| number(name).is_nan())
-        {
+        let is_word = |name: &&&str| {
+            let cell = place(name).map_or("", cell);
+            !cell.is_empty() && cell.parse::<f64>().is_err()
+        };
+        if let Some(name) = INPUTS.iter().find(is_word) {
             return at(&format!("no number for `{name}`"), "must be one, or empty");
         }
         let is_set = |at: &usize| {
@@ -260,33 +276,10 @@ impl<'a> Columns<'a> {
         if self.others.iter().any(is_set) || row.strength.is_nan() {
             return Ok(None);
         }
-        let inputs = [
-            row.density,
-            row.young_modulus,
-            row.strength,
-            row.radius,
-            row.velocity,
-        ];
-        let positive = |x: &f64| *x > 0.0 && x.is_finite();
-        if !inputs.iter().all(positive) || !(0.0..0.5).contains(&row.poisson_ratio) {
-            return at(
-                "an input that is no positive number",
-                "density, moduli, radius and speed must be above 0, Poisson's ratio in [0, 0.5)",
-            );
+        match row.flaw() {
+            Some([found, allowed]) => at(found, allowed),
+            None => Ok(Some(row)),
         }
-        let figures = [
-            row.restitution,
-            row.force,
-            row.displacement,
-            row.compression,
-            row.strain,
-            row.work,
-        ];
-        if row.ok() && !figures.iter().all(|x| x.is_finite()) {
-            let found = "a figure without number in a row with status ok";
-            return at(found, "must be a number");
-        }
-        Ok(Some(row))
     }
 }
 
@@ -298,7 +291,7 @@ impl Data {
     pub fn parse(text: &str, path: &Path) -> Result<Self> {
         let broken = |error: csv::Error| {
             let allowed = "must be the results.csv of a study";
-            refuse(path, "table", error.to_string(), allowed)
+            Error::in_table(path, "table", error.to_string(), allowed)
         };
         let mut reader = csv::ReaderBuilder::new()
             .comment(Some(b'#'))
@@ -317,7 +310,7 @@ impl Data {
         }
         let usable = data.usable(Row::inside).len();
         if usable < FEWEST {
-            return Err(refuse(
+            return Err(Error::in_table(
                 path,
                 "rows",
                 format!("{usable} that end well, yield and have rho V^2/Y up to {LARGEST}"),
@@ -364,4 +357,35 @@ pub fn distinct(mut values: Vec<f64>) -> Vec<f64> {
     values.sort_by(f64::total_cmp);
     values.dedup_by(|a, b| (*a - *b).abs() <= 1e-9 * b.abs());
     values
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cases_of_other_flow_stresses_and_oblique_ones_are_counted_and_left_out() {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/study-480.csv");
+        let text = std::fs::read_to_string(&path).unwrap();
+        let all = Data::parse(&text, &path).unwrap();
+        assert_eq!(all.others, 0);
+        let flow = Flow::all_constants();
+        let flow = flow.iter().filter(|constant| **constant != YIELD_STRENGTH);
+        let keys: Vec<String> = flow.map(InSi::key).collect();
+        assert!(keys.len() > 10);
+        for key in keys.iter().map(String::as_str).chain(OBLIQUE) {
+            // the first case has it, in the second it is 0, the others say nothing of it
+            let more = |(i, line): (usize, &str)| match i {
+                0 => line.to_owned(),
+                1 => format!("{line},{key}"),
+                2 => format!("{line},0.5"),
+                3 => format!("{line},0"),
+                _ => format!("{line},"),
+            };
+            let text: Vec<String> = text.lines().enumerate().map(more).collect();
+            let data = Data::parse(&text.join("\n"), &path).unwrap();
+            assert_eq!(data.others, 1, "{key}");
+            assert_eq!(data.rows.len() + 1, all.rows.len(), "{key}");
+        }
+    }
 }

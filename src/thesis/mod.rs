@@ -1,4 +1,5 @@
-//! Thesis: the equations, tables and readings of chapters 4 and 5 of the thesis this project starts from, held beside the results of a study.
+//! Thesis: the equations, tables and readings of chapters 4 and 5 of the thesis this project starts from, compared with the results of a
+//! study.
 //!
 //! Saifoori, *Analysis of Particle Deformation during Impact Deposition*, Leeds 2025. Numbers of equations, tables and figures are its own.
 //! q is $\rho V^2/Y$ throughout.

@@ -1,4 +1,4 @@
-//! Tables of the thesis that a study can be held against.
+//! Tables of the thesis that a study is compared with.
 
 /// Table 4-4: the largest force of a sphere of R 250 µm, rho 8000 kg/m3, E 100 GPa, E/Y 80, N: speed, Kogut-Etsion, Jackson-Green and MPM
 /// of the thesis.

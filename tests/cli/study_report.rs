@@ -127,6 +127,10 @@ fn a_table_that_the_thesis_says_nothing_of_is_refused_and_nothing_is_written() {
         ),
         (few, "must be at least 12"),
         (with("\n1000.0,", "\n-1000.0,"), "line 3"),
+        (
+            with("\n1000.0,", "\nlight,"),
+            "no number for `density_kg_m3`",
+        ),
         (with(",0.8879193,", ",NaN,"), "status ok"),
         (String::new(), "no such column"),
     ] {

@@ -155,6 +155,91 @@ struct RoundOut {
     found_hardening: f64,
 }
 
+impl RoundOut {
+    fn of(round: &Round) -> Self {
+        let factors = |k: usize| round.factors.iter().map(|all| all[k]).collect();
+        RoundOut {
+            strength: round.constants[0],
+            hardening: round.constants[1],
+            velocities_m_s: round.velocities.clone(),
+            restitution_factors: factors(0),
+            compression_ratio_factors: factors(1),
+            flat_diameter_factors: factors(2),
+            found_strength: round.found[0],
+            found_hardening: round.found[1],
+        }
+    }
+}
+
+impl Agreement {
+    fn of(asked: &Asked, problem: &Problem<'_>, estimate: &Estimate) -> Self {
+        // the atlas is off by its own errors, which are none of the measurements'
+        let off = match asked.refined {
+            None => problem.model.errors(&estimate.point, &problem.rows),
+            Some(_) => None,
+        };
+        let off = off.unwrap_or(vec![0.0; problem.rows.len()]);
+        let squares: f64 = (0..problem.rows.len())
+            .map(|i| {
+                let residual = problem.rows[i].value - estimate.predicted[i];
+                (residual / estimate.sigmas[i].hypot(off[i])).powi(2)
+            })
+            .sum();
+        let freedom = estimate.freedom as f64;
+        let worse_share = match (estimate.by_scatter, ChiSquared::new(freedom)) {
+            (false, Ok(chi)) => chi.sf(squares),
+            _ => 1.0,
+        };
+        Agreement {
+            chi_square: match estimate.by_scatter {
+                true => freedom,
+                false => estimate.chi_square,
+            },
+            degrees_of_freedom: estimate.freedom,
+            deviations_from_scatter: estimate.by_scatter,
+            worse_share,
+        }
+    }
+}
+
+/// What to know about an estimate; `first` is the yield strength by the atlas alone, Pa.
+fn notes(asked: &Asked, agreement: &Agreement, first: f64) -> Vec<String> {
+    let mut notes = vec![match asked.refined {
+        None => {
+            "the interval holds the error of the atlas with materials left out; --refine removes it"
+                .to_owned()
+        }
+        Some(tolerance) => format!(
+            "corrected by impacts of tolerance {tolerance}, whose own error is not in the interval; the atlas alone says {}",
+            engineering(first, "Pa", 4)
+        ),
+    }];
+    if agreement.deviations_from_scatter {
+        notes.push(
+            "no uncertainties given: they are taken from the scatter of the rows, speeds and all"
+                .to_owned(),
+        );
+    }
+    let worse = agreement.worse_share;
+    if worse < UNLIKELY {
+        let rare = match worse > 1e-9 {
+            true => significant(1.0 / worse, 2),
+            false => "a billion".to_owned(),
+        };
+        notes.push(format!(
+            "the rows are further from any such material than their uncertainties say (one in {rare} would be): other flow stress, \
+             modulus or uncertainties; the interval does not hold that"
+        ));
+    }
+    if asked.cap {
+        notes.push(
+            "flat diameters are taken for spherical caps, which leaves out the pile-up at the rim"
+                .to_owned(),
+        );
+    }
+    notes
+}
+
 /// Share of worse fits below which the rows are said not to agree.
 const UNLIKELY: f64 = 0.01;
 
@@ -171,49 +256,9 @@ impl Report {
     ) -> Self {
         let known = &problem.model.known;
         let [strength, hardening] = estimate.point.constants(known);
-        let freedom = estimate.freedom;
-        // the atlas is off by its own errors, which are none of the measurements'
-        let off = match asked.refined {
-            None => problem.model.errors(&estimate.point, &problem.rows),
-            Some(_) => None,
-        };
-        let off = off.unwrap_or(vec![0.0; problem.rows.len()]);
-        let squares: f64 = (0..problem.rows.len())
-            .map(|i| {
-                let residual = problem.rows[i].value - estimate.predicted[i];
-                (residual / estimate.sigmas[i].hypot(off[i])).powi(2)
-            })
-            .sum();
-        let worse = match (estimate.by_scatter, ChiSquared::new(freedom as f64)) {
-            (false, Ok(chi)) => chi.sf(squares),
-            _ => 1.0,
-        };
-        let chi_square = match estimate.by_scatter {
-            true => freedom as f64,
-            false => estimate.chi_square,
-        };
+        let agreement = Agreement::of(asked, problem, estimate);
+        let notes = notes(asked, &agreement, first[0]);
         let atlas = problem.model.atlas;
-        let mut notes = vec![match asked.refined {
-            None => "the interval holds the error of the atlas with materials left out; --refine removes it".to_owned(),
-            Some(tolerance) => format!(
-                "corrected by impacts of tolerance {}, whose own error is not in the interval; the atlas alone says {}",
-                tolerance,
-                engineering(first[0], "Pa", 4)
-            ),
-        }];
-        if estimate.by_scatter {
-            notes.push("no uncertainties given: they are taken from the scatter of the rows, speeds and all".to_owned());
-        }
-        if worse < UNLIKELY {
-            notes.push(format!(
-                "the rows are further from any such material than their uncertainties say (one in {} would be): other flow stress, \
-                 modulus or uncertainties; the interval does not hold that",
-                if worse > 1e-9 { significant(1.0 / worse, 2) } else { "a billion".to_owned() }
-            ));
-        }
-        if asked.cap {
-            notes.push("flat diameters are taken for spherical caps, which leaves out the pile-up at the rim".to_owned());
-        }
         let row = problem.rows.iter().enumerate().map(|(i, row)| RowOut {
             line: row.line,
             velocity_m_s: row.velocity,
@@ -222,19 +267,6 @@ impl Report {
             predicted: estimate.predicted[i],
             sigma: estimate.sigmas[i],
             residual: (row.value - estimate.predicted[i]) / estimate.sigmas[i],
-        });
-        let refinement = rounds.iter().map(|round| {
-            let factors = |k: usize| round.factors.iter().map(|all| all[k]).collect();
-            RoundOut {
-                strength: round.constants[0],
-                hardening: round.constants[1],
-                velocities_m_s: round.velocities.clone(),
-                restitution_factors: factors(0),
-                compression_ratio_factors: factors(1),
-                flat_diameter_factors: factors(2),
-                found_strength: round.found[0],
-                found_hardening: round.found[1],
-            }
         });
         Report {
             estimate: Found {
@@ -263,14 +295,9 @@ impl Report {
                 ),
                 notes,
             },
-            agreement: Agreement {
-                chi_square,
-                degrees_of_freedom: freedom,
-                deviations_from_scatter: estimate.by_scatter,
-                worse_share: worse,
-            },
+            agreement,
             row: row.collect(),
-            refinement: refinement.collect(),
+            refinement: rounds.iter().map(RoundOut::of).collect(),
         }
     }
 

@@ -8,7 +8,7 @@ use crate::report::palette::Role;
 use crate::report::scale::Axis;
 use crate::thesis::equations::{beyond, wu};
 use crate::thesis::tables::{DIAMETERS, FORCES, FORCES_OF, SIZES};
-use crate::thesis::{Data, Row};
+use crate::thesis::{Data, Equation, Row};
 use crate::unit::significant;
 
 /// Upper ends of the classes of E/Y that share a colour.
@@ -108,8 +108,7 @@ impl Figures<'_> {
         let mut all = classes(&plot.rows, plot.x.1, plot.y.1);
         let (from, to) = reach(&all);
         if let Some((number, of)) = plot.line.filter(|_| to > 0.0) {
-            let printed =
-                crate::thesis::Equation::numbered(number).map_or(&[][..], |e| e.constants);
+            let printed = Equation::numbered(number).map_or(&[][..], |e| e.constants);
             let fitted = (self.fitted)(number);
             let lines = [
                 ("thesis, its constants", printed),
@@ -223,9 +222,8 @@ impl Figures<'_> {
     pub fn restitution(&self) -> Result<Vec<Figure>> {
         let (speed, rows) = self.fastest();
         let e: Of<'_> = &|row| row.restitution;
-        let group = |row: &Row| {
-            2.85 * row.young_over_yield().powf(-0.325) * (-2.0 * row.severity().powf(0.325)).exp()
-        };
+        let group =
+            |row: &Row| Equation::numbered("4-9").map_or(f64::NAN, |e| (e.form)(row, e.constants));
         let mut gap = classes(&self.inside(), &|row| row.work, &|row| {
             1.0 - row.restitution.powi(2)
         });

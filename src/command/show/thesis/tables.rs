@@ -121,7 +121,7 @@ pub fn facts(data: &Data) -> Vec<(String, String)> {
         ),
     ];
     if data.others > 0 {
-        let name = "hardening, oblique or with friction, not looked at";
+        let name = "hardening, rate or heat, oblique or with friction: not looked at";
         facts.push((name.to_owned(), data.others.to_string()));
     }
     facts
