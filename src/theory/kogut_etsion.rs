@@ -93,6 +93,75 @@ impl Published for KogutEtsion {
     const RESTITUTION: Option<Restitution> = None;
 }
 
+/// [`KogutEtsion`] with an unloading of Hertz that begins with the contact radius $a_m$ of the largest displacement.
+///
+/// $$ \text{unloading:}\quad F = F_m \left(\frac{\delta - \delta_r}{\delta_m - \delta_r}\right)^{3/2}, \quad
+///    \delta_m - \delta_r = \frac{3 F_m}{4 a_m E^\ast}, \quad a^2 = R_r (\delta - \delta_r), \quad
+///    R_r = \frac{4 E^\ast a_m^3}{3 F_m} $$
+///
+/// It has no constant of its own: force and radius of a sphere of radius $R_r$ under Hertz are $F_m$ and $a_m$ at $\delta_m$.
+///
+/// Source: attributed to Etsion, Kligerman and Kadin 2005 by Jackson, Green and Marghitu 2010 and by **one code** that was seen, not the
+/// papers. Between $w = 1$ and $1.068^{1/0.143} = 1.6$ the jumps of loading at first yield leave more than $\delta_m$ to spring back:
+/// nothing is left of the flattening there, and e is up to 1.015 as with the other unloading.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HertzianUnloading {
+    loading: KogutEtsion,
+    contact_modulus: f64,
+}
+
+impl Published for HertzianUnloading {
+    const NAME: &'static str = "kogut-etsion-hertzian";
+    const SUMMARY: &'static str = "as `kogut-etsion`, unloading of Hertz from its contact radius; unverified, compared on request";
+    const PAPERS: &'static [&'static str] = &["KogutEtsion2002", "JacksonGreenMarghitu2010"];
+    const REFERENCE: &'static str = "Kogut and Etsion 2002, J. Appl. Mech. 69, 657; unloading of Hertz with a continuous contact radius, as Jackson, Green and Marghitu 2010 and a code attribute it to Etsion, Kligerman and Kadin 2005 (not seen in the papers)";
+    const EVIDENCE: Evidence = Evidence::Unverified;
+    const FLOW: FlowConstants = YIELD_STRENGTH_ONLY;
+    const RESTITUTION: Option<Restitution> = None;
+}
+
+impl PublishedLaw for HertzianUnloading {
+    type Law = Self;
+
+    fn law(material: &Material) -> Option<Self> {
+        Some(Self {
+            loading: KogutEtsion::of(material)?,
+            contact_modulus: material.contact_modulus(),
+        })
+    }
+}
+
+impl Envelope for HertzianUnloading {
+    fn loading(&self, x: f64) -> f64 {
+        self.loading.loading(x)
+    }
+
+    fn loading_slope(&self, x: f64) -> f64 {
+        self.loading.loading_slope(x)
+    }
+
+    fn loading_work(&self, x: f64) -> f64 {
+        self.loading.loading_work(x)
+    }
+
+    fn loading_contact_radius(&self, x: f64) -> f64 {
+        self.loading.loading_contact_radius(x)
+    }
+
+    fn unloading(&self, peak: f64, force: f64) -> Unloading {
+        if peak <= self.loading.critical_flattening {
+            return Unloading::hertzian(0.0);
+        }
+        let radius = self.loading_contact_radius(peak);
+        let sprung = 0.75 * force / (radius * self.contact_modulus);
+        Unloading::hertzian((peak - sprung).max(0.0))
+    }
+
+    fn supported_to(&self) -> f64 {
+        self.loading.supported_to()
+    }
+}
+
 impl PublishedLaw for KogutEtsion {
     type Law = Self;
 

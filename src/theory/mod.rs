@@ -206,6 +206,7 @@ theories! {
         Luding => luding::Luding,
         Ghaednia => ghaednia::Ghaednia,
         Stronge => stronge::Stronge,
+        KogutEtsionHertzian => kogut_etsion::HertzianUnloading,
     }
     formulas {
         wu_li_thornton::WuLiThornton,

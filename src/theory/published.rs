@@ -23,8 +23,8 @@ pub const YIELD_STRENGTH_ONLY: FlowConstants = &[YIELD_STRENGTH];
 pub enum Evidence {
     /// Derived anew, or seen in the paper or in sources that do not depend on each other.
     Checked,
-    /// Written from memory, and confirmed by nothing but its own consistency. Such a model is had by its name, and stands in no
-    /// comparison that did not ask for it.
+    /// Written from memory or seen in one source that is not the paper, and confirmed by nothing but its own consistency. Such a
+    /// model is had by its name, and stands in no comparison that did not ask for it.
     Unverified,
 }
 

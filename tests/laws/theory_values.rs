@@ -152,6 +152,7 @@ fn unloading_branches_equal_the_check_numbers() {
     let rows = [
         (Theory::Thornton, 0.040800433986, 6.0253125453),
         (Theory::KogutEtsion, 0.032104775576, 36.647238796),
+        (Theory::KogutEtsionHertzian, 0.029727250938, 36.807643881),
         (Theory::JacksonGreen, 0.035921364895, 27.025198760),
         (Theory::Mdr, 0.038227772697, 26.011404510),
     ];
@@ -159,6 +160,43 @@ fn unloading_branches_equal_the_check_numbers() {
         let got = theory.visit(&MATERIAL, Residual(0.05)).unwrap();
         assert_relative_eq!(got, residual, max_relative = 1e-9);
         assert_relative_eq!(force(theory, 0.045, Some(0.05)), value, max_relative = 1e-9);
+    }
+}
+
+/// A sphere of radius $R_r$ under Hertz has the force and the contact radius of the largest displacement, and loses contact at the
+/// residual one.
+#[test]
+fn hertzian_unloading_of_kogut_and_etsion_is_hertz_of_a_flatter_sphere() {
+    struct Radius(f64, f64);
+    impl LawVisitor for Radius {
+        type Output = f64;
+        fn visit<L: NormalLaw>(self, law: &L) -> f64 {
+            let mut history = L::History::default();
+            law.force(self.0, &mut history);
+            law.contact_radius(self.1, &history).unwrap()
+        }
+    }
+    let theory = Theory::KogutEtsionHertzian;
+    for peak in [0.002, 0.01, 0.05, 0.2] {
+        let radius = |x: f64| theory.visit(&MATERIAL, Radius(peak, x)).unwrap();
+        let most = force(theory, peak, None) / (RADIUS * RADIUS);
+        let widest = radius(peak);
+        let flatter = 4.0 * MATERIAL.contact_modulus() * widest.powi(3) / (3.0 * most);
+        let residual = theory.visit(&MATERIAL, Residual(peak)).unwrap();
+        for share in [0.2, 0.7, 1.0 - 1e-9] {
+            let depth = share * (peak - residual);
+            let hertz = 4.0 / 3.0 * MATERIAL.contact_modulus() * flatter.sqrt() * depth.powf(1.5);
+            let found = force(theory, residual + depth, Some(peak)) / (RADIUS * RADIUS);
+            assert_relative_eq!(found, hertz, max_relative = 1e-8);
+            let expected = (flatter * depth).sqrt();
+            assert_relative_eq!(radius(residual + depth), expected, max_relative = 1e-8);
+        }
+    }
+    // just above first yield nothing is left of the flattening, and more comes back than went in
+    let critical = 2.0772363842e-7 / RADIUS;
+    for (w, left) in [(1.01, false), (1.58, false), (1.60, true)] {
+        let residual = theory.visit(&MATERIAL, Residual(w * critical)).unwrap();
+        assert_eq!(residual > 1e-6 * critical, left, "{w}: {residual}");
     }
 }
 
