@@ -24,7 +24,7 @@ pub struct LawArgs {
     pub verb: Option<LawVerb>,
     /// The law to make.
     #[command(flatten)]
-    pub make: Option<LawAtlasArgs>,
+    pub make: LawAtlasArgs,
 }
 
 /// Verbs on a law file.
@@ -65,14 +65,9 @@ impl Command for LawArgs {
     /// # Errors
     /// Those of the law file, and [`Error::Argument`] for quantities that are not lengths.
     fn run(&self, context: &Context) -> Result<Verdict> {
-        match (&self.verb, &self.make) {
-            (Some(LawVerb::Eval(args)), _) => eval(args),
-            (None, Some(args)) => args.run(context),
-            (None, None) => Err(Error::Argument {
-                argument: "--young".to_owned(),
-                found: "nothing".to_owned(),
-                allowed: "must be given, or another verb".to_owned(),
-            }),
+        match &self.verb {
+            Some(LawVerb::Eval(args)) => eval(args),
+            None => self.make.run(context),
         }
     }
 }
