@@ -16,8 +16,8 @@ use std::path::Path;
 
 /// Largest overlap over the smaller diameter where the scene does not say: contacts of one grain are no longer apart beyond.
 const OVERLAP: f64 = 0.05;
-/// Largest radius, m, that a file may tell without a unit: in a list in mm, what is read is a thousand times as large.
-const LARGEST_WITHOUT_UNIT: f64 = 0.02;
+/// Smallest radius of a file, m, above which it must tell a unit: in a list in mm, what is read is a thousand times as large.
+const LARGE_WITHOUT_UNIT: f64 = 0.02;
 /// Largest error of a density or mass in a file: text is often rounded to three digits.
 const DENSITY_ERROR: f64 = 0.01;
 
@@ -65,7 +65,7 @@ keys! {
     FileTable "Grains as a file lists them: places, sizes, velocities, spins, materials, with columns in any order. `radius` and `material` of the group hold where the file tells none, `velocity` and `stir` come on top." {
         path: key("the file", "", "'packing.csv'"),
         format: key("what it is; a `restart.bin` is that of another bed", "`\"csv\"`, `\"lammps-dump\"`, `\"lammps-data\"`, `\"vtp\"`, `\"restart\"`", "'csv'").or("by the ending"),
-        length: key("length that 1 in the file means, where its columns name no unit; required where radii would be above 2 cm in m", "> 0", "'1 mm'").or("`\"1 m\"`"),
+        length: key("length that 1 in the file means, where its columns name no unit; required where all radii would be above 2 cm in m", "> 0", "'1 mm'").or("`\"1 m\"`"),
         velocity: key("the same for velocities; required beside `length`", "> 0", "'1 mm/s'").or("`\"1 m/s\"`"),
         frame: key("frame of a dump that holds several", "≥ 1", "1").or("the last"),
         types: key("materials of the `type` 1, 2, ... of the file, or of its `material` 0, 1, ...", "of `materials`", "['steel', 'glass']").or("the group's `material`"),
@@ -179,12 +179,13 @@ impl FileTable {
             tracing::warn!("{} {note}", path.display());
         }
         let radii = listing.grains.iter().filter_map(|grain| grain.radius);
-        let largest = radii.fold(0.0, f64::max);
-        if !listing.tells_unit && self.length.is_none() && largest > LARGEST_WITHOUT_UNIT {
+        let smallest = radii.fold(f64::INFINITY, f64::min);
+        let all_large = smallest.is_finite() && smallest > LARGE_WITHOUT_UNIT;
+        if !listing.tells_unit && self.length.is_none() && all_large {
             let allowed = format!(
                 "{} names no unit of length, and 1 is taken for 1 m: a radius is {}; say what 1 means: `length = \"1 mm\"`, or `length = \"1 m\"` if that is meant",
                 path.display(),
-                engineering(largest, "m", 3)
+                engineering(smallest, "m", 3)
             );
             return Err(at.reject("path", &allowed));
         }
