@@ -44,6 +44,7 @@ pub mod shape;
 pub mod space;
 pub mod study;
 pub mod tape;
+pub mod tester;
 pub mod theory;
 pub mod thesis;
 pub mod unit;

@@ -124,6 +124,8 @@ dimensions! {
     Torque, "a torque", "2.5 mN m", si::Torque, ["uN m", "mN m", "N m", "kN m"], [];
     /// Hz.
     Frequency, "a frequency", "50 Hz", si::Frequency, ["mHz", "Hz", "kHz", "MHz"], [];
+    /// Pa s.
+    Viscosity, "a viscosity", "18.1 uPa s", si::DynamicViscosity, ["uPa s", "mPa s", "Pa s"], [];
     /// kg/s.
     MassRate, "a mass rate", "5 g/s", si::MassRate, ["mg/s", "g/s", "kg/s", "kg/h", "t/h"], [];
     /// J.
@@ -259,6 +261,7 @@ fn uom_spelling(unit: &str) -> String {
         .replace('3', "³")
         .replace("deg/", "°/")
         .replace("N m", "N · m")
+        .replace("Pa s", "Pa · s")
         .replace("kg K", "kg · K");
     unit = match unit.as_str() {
         "deg" => "°".to_owned(),
@@ -469,6 +472,7 @@ mod tests {
         accepted::<SpecificHeat>();
         accepted::<Torque>();
         accepted::<Frequency>();
+        accepted::<Viscosity>();
         accepted::<MassRate>();
         accepted::<Energy>();
     }

@@ -34,6 +34,7 @@ pub(crate) mod study_merge;
 pub(crate) mod study_report;
 pub(crate) mod study_runs;
 pub(crate) mod study_table;
+pub(crate) mod tester;
 pub mod theory;
 pub(crate) mod units;
 
@@ -104,6 +105,7 @@ verbs! {
     Predict(predict::PredictArgs),
     Atlas(atlas::AtlasArgs),
     Inverse(inverse::InverseArgs),
+    Tester(tester::TesterArgs),
     Cost(cost::CostArgs),
     Export(export::ExportArgs),
     Law(law::LawArgs),

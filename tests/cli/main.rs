@@ -23,4 +23,5 @@ mod schema;
 mod slips;
 mod study;
 mod study_report;
+mod tester;
 mod verbs;

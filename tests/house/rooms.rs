@@ -24,7 +24,7 @@ const ROOMS: Order = &[
     &["atlas"],
     &["law"],
     &["compare", "cost", "discover"],
-    &["inverse", "thesis"],
+    &["inverse", "tester", "thesis"],
     &["dem"],
     &["listing", "view"],
     &["bed"],
