@@ -112,7 +112,8 @@ pub struct HertzianUnloading {
 
 impl Published for HertzianUnloading {
     const NAME: &'static str = "kogut-etsion-hertzian";
-    const SUMMARY: &'static str = "as `kogut-etsion`, unloading of Hertz from its contact radius; unverified, compared on request";
+    const SUMMARY: &'static str =
+        "`kogut-etsion`, unloading of Hertz from its radius; unverified, compared on request";
     const PAPERS: &'static [&'static str] = &["KogutEtsion2002", "JacksonGreenMarghitu2010"];
     const REFERENCE: &'static str = "Kogut and Etsion 2002, J. Appl. Mech. 69, 657; unloading of Hertz with a continuous contact radius, as Jackson, Green and Marghitu 2010 and a code attribute it to Etsion, Kligerman and Kadin 2005 (not seen in the papers)";
     const EVIDENCE: Evidence = Evidence::Unverified;
