@@ -165,7 +165,7 @@ impl FileTable {
                 .transpose()?,
             frame: self.frame,
         };
-        let bytes = std::fs::read(&path).map_err(|error| {
+        let bytes = std::fs::read(path).map_err(|error| {
             let allowed = format!(
                 "must name a file that can be read: {}: {error}",
                 path.display()
