@@ -12,9 +12,12 @@ use named::Given;
 use serde::Deserialize;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
+use wall::WallTable;
 
 pub mod named;
+pub mod pair;
 pub(crate) mod slips;
+mod wall;
 
 /// A checked case, SI units. Read with [`Case::read`].
 #[derive(Debug, Clone, PartialEq)]
@@ -62,10 +65,10 @@ keys! {
         particle: table("the particle"),
         material: table("its material: constants, or the name of one of `models/constants/` (`material = \"ofhc-copper\"` above the tables)"),
         impact: table("speeds"),
-        wall: table("the rigid wall").or("frictionless"),
+        wall: table("the wall: rigid with friction, or deformable").or("rigid and frictionless"),
         accuracy: table("what the run is planned for"),
         bed: table("a bed that `run` ends with").or("none"),
-        unusual: key("values that look like a slip of a unit and are meant all the same", "`particle.radius`, `impact.velocities`, or a number of `[material]` as `material.density`", "['particle.radius']").or("none"),
+        unusual: key("values that look like a slip of a unit and are meant all the same", "`particle.radius`, `impact.velocities`, `wall.radius`, or a number of `[material]` or `[wall.material]` as `material.density`", "['particle.radius']").or("none"),
     }
 }
 
@@ -140,18 +143,6 @@ keys! {
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct WallTable {
-    friction: f64,
-}
-
-keys! {
-    WallTable {
-        friction: key("Coulomb's friction coefficient", "0 to 2", "0.3"),
-    }
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
 struct AccuracyTable {
     tolerance: f64,
 }
@@ -221,9 +212,19 @@ impl Case {
     /// Check a case file that has been read already.
     ///
     /// # Errors
-    /// As [`Case::parse`].
+    /// As [`Case::parse`], and [`Error::Value`] for a deformable wall, which [`pair::Asked`] reads.
     pub fn from_document(document: &Document) -> Result<Self> {
+        match Self::with_wall(document)? {
+            (case, None, _) => Ok(case),
+            _ => Err(pair::refusal(document)),
+        }
+    }
+
+    /// The case, what stands in place of a rigid wall, and the values that are meant though they look like slips.
+    fn with_wall(document: &Document) -> Result<(Self, Option<pair::Target>, Vec<String>)> {
         let file: CaseFile = document.parse()?;
+        let (friction, target) =
+            (file.wall).map_or(Ok((0.0, None)), |wall| wall.check(document))?;
         let written: Vec<f64> = file.impact.velocities.iter().map(|v| v.si()).collect();
         let case = Case {
             name: document.name(),
@@ -231,16 +232,16 @@ impl Case {
             hash: document.hash(),
             radius: document.within("particle.radius", file.particle.radius.si())?,
             shape: file.particle.shape(document)?,
-            material: file.material.check(document)?,
+            material: file.material.check(document, "material")?,
             velocities: file.impact.check(document)?,
             angle: file.impact.angle(document)?,
-            friction: file.wall.map_or(Ok(0.0), |wall| wall.check(document))?,
+            friction,
             tolerance: document.within("accuracy.tolerance", file.accuracy.tolerance)?,
             bed: file.bed.map(|bed| bed.check(document)).transpose()?,
         };
         case.check_cylinder(document)?;
-        slips::check(&case, &written, document, &file.unusual)?;
-        Ok(case)
+        slips::check(&case, &written, document, &file.unusual, target.is_some())?;
+        Ok((case, target, file.unusual))
     }
 
     /// A case without a file: a sphere of `radius` (m) of `material`, at `velocities` (m/s), to `tolerance`.
@@ -470,12 +471,6 @@ impl ImpactTable {
                 &document.must(key),
             )
         })
-    }
-}
-
-impl WallTable {
-    fn check(self, document: &Document) -> Result<f64> {
-        document.within("wall.friction", self.friction)
     }
 }
 

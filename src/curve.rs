@@ -11,7 +11,7 @@ use std::path::Path;
 
 mod tables;
 
-pub use tables::{Cylinder, Heating, Tangential};
+pub use tables::{Cylinder, Heating, Tangential, Target, TargetMaterial};
 
 /// One output interval of an impact. Field names are the CSV header (file contract).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -23,6 +23,10 @@ pub struct Sample {
     pub displacement_m: f64,
     /// Travel of the material point at the sphere's centre, m.
     pub centre_displacement_m: f64,
+    /// Depth of the dent in the second body, m: travel of its pole towards its centre of mass, of a plate towards its back; absent on
+    /// a rigid wall.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub target_displacement_m: Option<f64>,
     /// Wall force: impulse over the output interval divided by its length, N.
     #[serde(rename = "force_N")]
     pub force_n: f64,
@@ -120,6 +124,9 @@ pub struct Summary {
     /// What happened along the wall; absent from normal impacts on a frictionless wall.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tangential: Option<Tangential>,
+    /// The second body of an impact of two; absent on a rigid wall.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub target: Option<Target>,
     /// Whose impact it is; absent from files of versions before 0.2.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub particle: Option<Particle>,
@@ -412,7 +419,8 @@ impl Impact {
     /// Read `curve.csv` and `summary.json` from the folder of one impact. A summary without a sum is warned of.
     ///
     /// # Errors
-    /// [`Error::File`] and [`Error::Syntax`] as for the two files; [`Error::File`] when they are not as they were written.
+    /// [`Error::File`] and [`Error::Syntax`] as for the two files; [`Error::File`] when they are not as they were written;
+    /// [`Error::Refused`] for an impact of two deformable bodies, of which nothing here is made.
     pub fn read(folder: &Path) -> Result<Self> {
         let path = folder.join("summary.json");
         let text = std::fs::read_to_string(&path).map_err(Error::file("read", &path))?;
@@ -431,11 +439,19 @@ impl Impact {
                 return Err(Error::file("use", &path)(why));
             }
         }
-        let summary = serde_json::from_str(&text).map_err(|e| Error::Syntax {
+        let summary: Summary = serde_json::from_str(&text).map_err(|e| Error::Syntax {
             path: path.clone(),
             message: e.to_string(),
             place: None,
         })?;
+        if let Some(target) = &summary.target {
+            return Err(Error::Refused {
+                what: path.display().to_string(),
+                found: format!("an impact on a deformable {}", target.shape),
+                allowed: "laws, comparisons and studies are made of impacts on a rigid wall"
+                    .to_owned(),
+            });
+        }
         let samples = rows_of(&bytes, &curve)?;
         Ok(Impact {
             summary,

@@ -87,18 +87,18 @@ keys! {
 }
 
 impl Given {
-    /// The material, SI units.
+    /// The material under the dotted key `at`, SI units.
     ///
     /// # Errors
     /// Those of its constants, and [`crate::Error::Value`] for a name that is none.
-    pub(super) fn check(self, document: &Document) -> Result<Material> {
+    pub(super) fn check(self, document: &Document, at: &str) -> Result<Material> {
         match self {
-            Given::Table(table) => table.others.check(&table.flow, document, "material"),
+            Given::Table(table) => table.others.check(&table.flow, document, at),
             Given::Name(name) => match of_name(&name) {
                 Some(found) => found.map(|(material, _)| material),
                 None => {
                     let allowed = format!("must be a table, or one of {}", NAMES.join(", "));
-                    Err(document.reject("material", allowed))
+                    Err(document.reject(at, allowed))
                 }
             },
         }

@@ -4,6 +4,7 @@
 //! the same is named in the case file: `unusual = ["particle.radius"]`.
 
 use super::Case;
+use super::pair::{PairCase, TargetShape};
 use crate::document::Document;
 use crate::material::constant::{Constant, Dimension};
 use crate::material::flow::YIELD_STRENGTH;
@@ -109,7 +110,11 @@ pub(crate) type Slip = Option<String>;
 /// # Errors
 /// [`Error::Value`] naming the first one that is none.
 pub(crate) fn check_names(document: &Document, unusual: &[String]) -> Result<()> {
-    let keys = keys();
+    check_among(document, unusual, &keys())
+}
+
+/// That `unusual` names some of `keys`.
+fn check_among(document: &Document, unusual: &[String], keys: &[String]) -> Result<()> {
     match unusual.iter().position(|key| !keys.contains(key)) {
         Some(i) => {
             let allowed = format!("must be one of {}", keys.join(", "));
@@ -203,7 +208,7 @@ pub(crate) fn reasons(case: &Case, velocities: &[f64]) -> Vec<(String, Option<us
         .collect()
 }
 
-/// That no value of the case file is a slip, but for those named in `unusual`.
+/// That no value of the case file is a slip, but for those named in `unusual`; of a `pair` the names are checked with the second body.
 ///
 /// # Errors
 /// [`Error::Value`] naming the first one, and how to keep it.
@@ -212,13 +217,48 @@ pub(super) fn check(
     velocities: &[f64],
     document: &Document,
     unusual: &[String],
+    pair: bool,
 ) -> Result<()> {
-    check_names(document, unusual)?;
+    if !pair {
+        check_names(document, unusual)?;
+    }
     match of(case, velocities, unusual).into_iter().next() {
         Some((key, index, allowed)) => {
             let end = index.map_or_else(String::new, |i| format!("[{i}]"));
             Err(document.reject(&format!("{key}{end}"), allowed))
         }
+        None => Ok(()),
+    }
+}
+
+/// The same for the second body of a pair, whose keys stand in `[wall]`.
+///
+/// # Errors
+/// As [`check`].
+pub(super) fn check_target(pair: &PairCase, document: &Document, unusual: &[String]) -> Result<()> {
+    let in_wall = |key: &str| match key {
+        RADIUS => "wall.radius".to_owned(),
+        key => format!("wall.{key}"),
+    };
+    let own = keys();
+    let of_wall = own
+        .iter()
+        .filter(|key| *key != VELOCITIES)
+        .map(|key| in_wall(key));
+    let all: Vec<String> = own.iter().cloned().chain(of_wall).collect();
+    check_among(document, unusual, &all)?;
+    let as_particle = Case {
+        radius: match pair.target.shape {
+            TargetShape::Sphere { radius } => radius,
+            TargetShape::Plate { .. } | TargetShape::HalfSpace => pair.particle.radius,
+        },
+        material: pair.target.material,
+        ..pair.particle.clone()
+    };
+    let all = reasons(&as_particle, &[]).into_iter();
+    let mut found = all.map(|(key, _, why)| (in_wall(&key), why));
+    match found.find(|(key, _)| !unusual.contains(key)) {
+        Some((key, why)) => Err(document.reject(&key, meant(&key, &why))),
         None => Ok(()),
     }
 }

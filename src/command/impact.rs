@@ -1,9 +1,12 @@
 //! Impact command: simulates every speed of a case in parallel and writes a folder for each.
 
 use crate::case::Case;
+use crate::case::pair::{Asked, PairCase};
 use crate::command::{CHECKPOINT_FILE, Command, Context, Verdict, impact_folder, output_folder};
-use crate::curve::Status;
+use crate::curve::{Status, Summary};
+use crate::impact::pair::{SimulatedPair, simulate_pair};
 use crate::impact::{Simulated, simulate_kept};
+use crate::plan::pair::{PairPlan, pair_plans};
 use crate::plan::plans;
 use crate::tape::Checkpoint;
 use crate::unit::{self, Time, engineering, significant};
@@ -34,6 +37,7 @@ impl Command for ImpactArgs {
     const EXAMPLES: &'static [&'static str] = &[
         "impactlaw impact cases/thesis-4-4.toml",
         r#"impactlaw impact cases/thesis-4-4.toml --velocity "10 m/s" --out out/slow"#,
+        "impactlaw impact cases/steel-ball-on-plate.toml",
     ];
 
     /// Simulate and write all impacts of the case.
@@ -41,27 +45,48 @@ impl Command for ImpactArgs {
     /// # Errors
     /// Those of reading the case and writing the results; [`Error::Impact`] when a run did not finish (its files are written all the same).
     fn run(&self, context: &Context) -> Result<Verdict> {
-        let case = Case::read(&self.case)?.with_velocities(&self.velocity)?;
         let interval = interval(&self.checkpoint)?;
+        let case = match Asked::read(&self.case)?.with_velocities(&self.velocity)? {
+            Asked::RigidWall(case) => case,
+            Asked::Pair(pair) => return self.of_pair(&pair, interval, context),
+        };
         let out = output_folder(self.out.as_deref(), &case.name)?;
         context.open_log(&out, "impact", &case.hash);
         context
             .log
             .note("plan", &super::plan::text(&case, &plans(&case)?));
         let all = impacts(&case, &out, interval, context)?;
-        context.say(&findings(&all, &out))?;
+        let summaries = all.iter().map(|done| &done.impact.summary);
+        context.say(&findings(summaries, &out))?;
         all.iter().try_for_each(check)?;
         Ok(Verdict::Met)
     }
 }
 
+impl ImpactArgs {
+    /// The same for two deformable bodies.
+    fn of_pair(&self, pair: &PairCase, interval: Duration, context: &Context) -> Result<Verdict> {
+        let plans = pair_plans(pair)?;
+        let case = &pair.particle;
+        let out = output_folder(self.out.as_deref(), &case.name)?;
+        context.open_log(&out, "impact", &case.hash);
+        let said = super::plan::pair_text(pair, &plans);
+        context.log.note("plan", &said);
+        let all = pair_impacts(pair, plans, &out, interval, context)?;
+        let summaries = || all.iter().map(|done| &done.impact.summary);
+        context.say(&findings(summaries(), &out))?;
+        summaries().try_for_each(check_summary)?;
+        Ok(Verdict::Met)
+    }
+}
+
 /// What the impacts gave and where it lies, as text.
-pub(super) fn findings(all: &[Simulated], out: &Path) -> String {
+pub(super) fn findings<'a>(all: impl Iterator<Item = &'a Summary>, out: &Path) -> String {
     let mut text = format!(
         "{:>10} {:>8} {:>11} {:>11} {:>11}  folder\n",
         "V", "e", "F*", "delta*", "t_c"
     );
-    for summary in all.iter().map(|done| &done.impact.summary) {
+    for summary in all {
         let folder = impact_folder(out, summary.velocity_m_s);
         let figures = [
             engineering(summary.velocity_m_s, "m/s", 4),
@@ -150,12 +175,70 @@ pub fn impacts(
     Ok(all)
 }
 
+/// Maps of an impact of two bodies.
+const PAIR_MAPS: [&str; 4] = [
+    "particle_compressed.csv",
+    "target_compressed.csv",
+    "particle_rebound.csv",
+    "target_rebound.csv",
+];
+
+/// The same for two deformable bodies; maps of the second one stand beside those of the particle.
+///
+/// # Errors
+/// Those of writing the results.
+fn pair_impacts(
+    pair: &PairCase,
+    mut plans: Vec<PairPlan>,
+    out: &Path,
+    interval: Duration,
+    context: &Context,
+) -> Result<Vec<SimulatedPair>> {
+    plans.sort_by(|a, b| b.impact.seconds.total_cmp(&a.impact.seconds));
+    let bar = context.progress(plans.len() as u64, "impacts");
+    let provenance = context.provenance(&pair.particle.hash);
+    let mut all = plans
+        .par_iter()
+        .with_max_len(1)
+        .map(|plan| {
+            let folder = impact_folder(out, plan.impact.velocity);
+            let checkpoint = Checkpoint::new(&folder.join(CHECKPOINT_FILE), interval);
+            let done = simulate_pair(pair, plan, Some(&checkpoint));
+            done.impact.write(&folder, &provenance)?;
+            let maps = done.compressed.iter().chain(&done.rebound);
+            for (name, map) in PAIR_MAPS.iter().zip(maps) {
+                map.write(&folder.join(name), &provenance)?;
+            }
+            bar.inc(1);
+            let summary = &done.impact.summary;
+            tracing::info!(
+                "{} m/s: {} points, {} steps in {:.1} s (predicted {:.1} s)",
+                plan.impact.velocity,
+                summary.points,
+                summary.steps,
+                summary.wall_s,
+                plan.impact.seconds
+            );
+            Ok(done)
+        })
+        .collect::<Result<Vec<SimulatedPair>>>()?;
+    bar.finish_and_clear();
+    all.sort_by(|a, b| {
+        let speed = |s: &SimulatedPair| s.impact.summary.velocity_m_s;
+        speed(a).total_cmp(&speed(b))
+    });
+    Ok(all)
+}
+
 /// Checks that a run finished.
 ///
 /// # Errors
 /// [`Error::Impact`] with its reason when it did not.
 pub fn check(done: &Simulated) -> Result<()> {
-    let summary = &done.impact.summary;
+    check_summary(&done.impact.summary)
+}
+
+fn check_summary(summary: &Summary) -> Result<()> {
     let reason = match &summary.status {
         Status::Ok => return Ok(()),
         Status::NoRebound => "no rebound before the longest time of the plan".to_owned(),

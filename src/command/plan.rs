@@ -6,7 +6,9 @@ use crate::Result;
 use crate::bed::scene::Scene;
 use crate::bed::stages::time_step::lengths;
 use crate::case::Case;
+use crate::case::pair::{Asked, PairCase};
 use crate::command::{Command, Context, Verdict, print, print_json};
+use crate::plan::pair::{PairPlan, pair_plans};
 use crate::plan::{Plan, plans};
 use crate::study::Study;
 use crate::unit::{engineering, significant};
@@ -41,8 +43,18 @@ impl Command for PlanArgs {
     /// # Errors
     /// Those of reading and planning the file.
     fn run(&self, _context: &Context) -> Result<Verdict> {
-        let case = match Case::read(&self.case) {
-            Ok(case) => case.with_velocities(&self.velocity)?,
+        let case = match Asked::read(&self.case) {
+            Ok(asked) => match asked.with_velocities(&self.velocity)? {
+                Asked::RigidWall(case) => case,
+                Asked::Pair(pair) => {
+                    let plans = pair_plans(&pair)?;
+                    match self.json {
+                        true => print_json(&pair_json(&pair, &plans))?,
+                        false => print(&pair_text(&pair, &plans))?,
+                    }
+                    return Ok(Verdict::Met);
+                }
+            },
             Err(error) if self.velocity.is_empty() => {
                 let (values, said) = match kind_of(&error) {
                     Some("study") => of_study(&planned(&self.case)?),
@@ -161,6 +173,50 @@ pub fn json(case: &Case, plans: &[Plan]) -> Value {
     };
     let all: Vec<Value> = plans.iter().map(one).collect();
     json!({ "case": case.name, "tolerance": case.tolerance, "impacts": all })
+}
+
+/// The plan of two bodies for programs: that of the particle, with the grid of the second body as `target`.
+fn pair_json(pair: &PairCase, plans: &[PairPlan]) -> Value {
+    let case = &pair.particle;
+    let impacts: Vec<Plan> = plans.iter().map(|plan| plan.impact.clone()).collect();
+    let mut values = json(case, &impacts);
+    for (plan, value) in plans
+        .iter()
+        .zip(values["impacts"].as_array_mut().into_iter().flatten())
+    {
+        let (width, height) = plan.target.extent.size();
+        value["target"] = json!({
+            "shape": pair.target.shape.name(),
+            "finest_cell_m": plan.target.fine * case.radius,
+            "coarsest_cell_m": plan.target.coarse * case.radius,
+            "grid_radius_m": width * case.radius,
+            "grid_depth_m": height * case.radius,
+        });
+    }
+    values
+}
+
+/// The plan of two bodies as a person reads it.
+pub(super) fn pair_text(pair: &PairCase, plans: &[PairPlan]) -> String {
+    let case = &pair.particle;
+    let impacts: Vec<Plan> = plans.iter().map(|plan| plan.impact.clone()).collect();
+    let mut out = text(case, &impacts);
+    let length = |x: f64| engineering(x * case.radius, "m", 3);
+    for plan in plans {
+        let (width, height) = plan.target.extent.size();
+        let _ = writeln!(
+            out,
+            "V = {} m/s: second body ({}) on a grid of radius {}, depth {}; cells {} growing by {} to {}",
+            plan.impact.velocity,
+            pair.target.shape.name(),
+            length(width),
+            length(height),
+            length(plan.target.fine),
+            plan.target.growth,
+            length(plan.target.coarse),
+        );
+    }
+    out
 }
 
 /// The plan as a person reads it.

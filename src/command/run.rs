@@ -117,7 +117,7 @@ impl Command for RunArgs {
             true => print_json(&results.json(&law, &page))?,
             false => context.say(&format!(
                 "{}\nErrors against these impacts, %\n{}\nlaw     {}\nerror   {:.2} % at most, of F*, delta* and e: law against simulation\nreport  {}\ntime    {:.1} s\n",
-                impact::findings(&results.simulated, &out),
+                impact::findings(results.simulated.iter().map(|one| &one.impact.summary), &out),
                 results.comparison.summary_markdown().trim_end(),
                 law.display(),
                 100.0 * results.law.worst_error(),

@@ -10,6 +10,7 @@ pub(crate) mod stepping;
 
 mod choice;
 pub mod kernel;
+pub mod pair;
 mod run;
 pub(crate) mod updated;
 pub mod wall;

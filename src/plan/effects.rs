@@ -87,7 +87,7 @@ pub(super) fn of(case: &Case, velocity: f64) -> (Vec<Effect>, bool) {
 }
 
 /// Effects on the flow stress besides yielding, of every kind there is: on where the material has their constants.
-fn flow_effects(case: &Case, velocity: f64, plastic: bool) -> Vec<Effect> {
+pub(super) fn flow_effects(case: &Case, velocity: f64, plastic: bool) -> Vec<Effect> {
     let flow = case.material.flow;
     let own = flow.map_or_else(Vec::new, |flow| flow.constants());
     let mut list: Vec<Effect> = Vec::new();

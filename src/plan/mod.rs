@@ -15,6 +15,7 @@ use std::f64::consts::PI;
 mod bar;
 mod effects;
 mod grid;
+pub mod pair;
 mod predict;
 mod similar;
 pub(crate) mod viscosity;

@@ -233,6 +233,7 @@ mod tests {
             centre_displacement_m: x * 1e-6,
             force_n: x,
             tangential_force_n: None,
+            target_displacement_m: None,
             contact_radius_m: 0.0,
             kinetic_j: 0.0,
             elastic_j: 0.0,

@@ -14,6 +14,7 @@ mod inverse;
 mod killed;
 mod kinds;
 mod owner;
+mod pair;
 #[path = "../support/program.rs"]
 mod program;
 mod reference;

@@ -44,6 +44,7 @@ fn summary(velocity_m_s: f64, status: Status) -> Summary {
         steps: 123_456,
         wall_s: 2.0,
         cylinder: None,
+        target: None,
         heating: None,
         tangential: None,
         particle: None,

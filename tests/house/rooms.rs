@@ -44,7 +44,7 @@ const WINGS: &[(&str, Order)] = &[
             &["grid", "wall"],
             &["stepping", "model"],
             &["run"],
-            &["updated"],
+            &["updated", "pair"],
             &["choice"],
         ],
     ),

@@ -7,6 +7,7 @@ mod hard;
 mod large;
 #[path = "../support/maw_barber_fawcett.rs"]
 mod maw_barber_fawcett;
+mod pair;
 mod plastic;
 mod scan;
 mod schemes;

@@ -26,15 +26,15 @@ use crate::tape::{Keeper, keep_fields};
 /// Outputs over the expected contact time.
 pub(in crate::impact) const OUTPUTS: f64 = 400.0;
 /// Energy imbalance (of the incident kinetic energy) beyond which a run is stopped as unstable.
-const UNSTABLE: f64 = 0.05;
+pub(in crate::impact) const UNSTABLE: f64 = 0.05;
 /// Stable step, in times that a bar wave takes through the smallest cell, below which a run is stopped: a node has hardly any
 /// mass (a point on the rim of its functions), or cells are crushed for good. Of nine runs from slight to flattened, E/Y 40 to
 /// 20000, none came below 0.05.
-const LEAST_STEP: f64 = 1e-3;
+pub(in crate::impact) const LEAST_STEP: f64 = 1e-3;
 /// Most steps between refreshes of the stable time step and the contact candidates.
-const REFRESH: f64 = 50.0;
+pub(in crate::impact) const REFRESH: f64 = 50.0;
 /// Share of a cell that the wall may cover between refreshes: the stable step follows the strain of fast impacts.
-const COVERED: f64 = 0.5;
+pub(in crate::impact) const COVERED: f64 = 0.5;
 /// The same where large deformation squeezes single cells much faster than the body.
 const COVERED_LARGE: f64 = 0.1;
 

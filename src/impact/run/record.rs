@@ -363,6 +363,7 @@ impl Record {
                 displacement_m: middle(|f| f.displacement) * length,
                 centre_displacement_m: middle(|f| f.centre_displacement) * length,
                 force_n: (b.impulse - a.impulse) / (b.time - a.time) * force,
+                target_displacement_m: None,
                 tangential_force_n: (self.sliding.as_ref())
                     .map(|_| (a.tangential - b.tangential) / (b.time - a.time) * force),
                 contact_radius_m: b.contact_radius * contact_radius,
@@ -404,6 +405,7 @@ impl Record {
                 }
             }),
             tangential: self.sliding.map(|s| s.figures(radius, units.speed())),
+            target: None,
             cylinder: self.cylinder().map(|[length, foot, fifth]| Cylinder {
                 final_length_m: length * radius,
                 foot_diameter_m: foot * radius,
