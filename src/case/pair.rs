@@ -86,7 +86,7 @@ impl Asked {
             target,
         };
         pair.check(document)?;
-        slips::check_target(&pair, document, &unusual)?;
+        slips::check_target(&pair.target_as_particle(), document, &unusual)?;
         Ok(Asked::Pair(pair))
     }
 
@@ -106,6 +106,18 @@ impl Asked {
 }
 
 impl PairCase {
+    /// The second body as if it were the particle.
+    fn target_as_particle(&self) -> Case {
+        Case {
+            radius: match self.target.shape {
+                TargetShape::Sphere { radius } => radius,
+                TargetShape::Plate { .. } | TargetShape::HalfSpace => self.particle.radius,
+            },
+            material: self.target.material,
+            ..self.particle.clone()
+        }
+    }
+
     /// That nothing is asked of two bodies that is done on a rigid wall alone.
     fn check(&self, document: &Document) -> Result<()> {
         let rejected = |key, why: &str| {

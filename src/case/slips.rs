@@ -4,7 +4,6 @@
 //! the same is named in the case file: `unusual = ["particle.radius"]`.
 
 use super::Case;
-use super::pair::{PairCase, TargetShape};
 use crate::document::Document;
 use crate::material::constant::{Constant, Dimension};
 use crate::material::flow::YIELD_STRENGTH;
@@ -231,31 +230,25 @@ pub(super) fn check(
     }
 }
 
-/// The same for the second body of a pair, whose keys stand in `[wall]`.
+/// The same for the second body of a case, given as one of a particle of its material and radius; its keys stand in `[wall]`.
 ///
 /// # Errors
 /// As [`check`].
-pub(super) fn check_target(pair: &PairCase, document: &Document, unusual: &[String]) -> Result<()> {
+pub(super) fn check_target(
+    as_particle: &Case,
+    document: &Document,
+    unusual: &[String],
+) -> Result<()> {
     let in_wall = |key: &str| match key {
         RADIUS => "wall.radius".to_owned(),
         key => format!("wall.{key}"),
     };
     let own = keys();
-    let of_wall = own
-        .iter()
-        .filter(|key| *key != VELOCITIES)
-        .map(|key| in_wall(key));
+    let of_wall = own.iter().filter(|key| *key != VELOCITIES);
+    let of_wall = of_wall.map(|key| in_wall(key));
     let all: Vec<String> = own.iter().cloned().chain(of_wall).collect();
     check_among(document, unusual, &all)?;
-    let as_particle = Case {
-        radius: match pair.target.shape {
-            TargetShape::Sphere { radius } => radius,
-            TargetShape::Plate { .. } | TargetShape::HalfSpace => pair.particle.radius,
-        },
-        material: pair.target.material,
-        ..pair.particle.clone()
-    };
-    let all = reasons(&as_particle, &[]).into_iter();
+    let all = reasons(as_particle, &[]).into_iter();
     let mut found = all.map(|(key, _, why)| (in_wall(&key), why));
     match found.find(|(key, _)| !unusual.contains(key)) {
         Some((key, why)) => Err(document.reject(&key, meant(&key, &why))),

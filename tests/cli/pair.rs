@@ -134,6 +134,10 @@ fn what_two_bodies_are_not_run_with_is_refused_by_name() {
             "wall.material.poisson_ratio",
         ),
         (with("young_modulus = \"70 GPa\"\n", ""), "young_modulus"),
+        (
+            with("poisson_ratio = 0.33", "poisson_ratio = 0.495"),
+            "wall.material.poisson_ratio",
+        ),
         (sphere("1 m"), "wall.radius"),
         (sphere("10 um"), "wall.radius"),
         (sphere("-1 mm"), "wall.radius"),
@@ -172,7 +176,7 @@ fn verbs_that_know_rigid_walls_alone_refuse_a_deformable_one() {
         assert!(message.contains("wall.material"), "{verb:?}: {message}");
         assert!(message.contains("impactlaw impact"), "{verb:?}: {message}");
     }
-    let study = "[particle]\nradius = \"1 mm\"\n[material]\ndensity = \"8000 kg/m3\"\nyoung_modulus = \"200 GPa\"\npoisson_ratio = 0.3\n\
+    let study = "[particle]\nradius = \"1 mm\"\n[material]\ndensity = \"8000 kg/m3\"\nyoung_modulus = [\"100 GPa\", \"200 GPa\"]\npoisson_ratio = 0.3\n\
         [wall]\nthickness = \"3 mm\"\n[impact]\nvelocities = [\"1 m/s\"]\n[accuracy]\ntolerance = 0.1\n";
     let message = refused(&["study", "c.toml"], study);
     assert!(message.contains("thickness"), "{message}");

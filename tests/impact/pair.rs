@@ -89,7 +89,7 @@ fn equal_spheres_meet_as_each_meets_a_rigid_wall() {
 #[test]
 fn an_elastic_pair_of_unequal_radii_and_moduli_meets_by_hertz() {
     let (hard, soft) = (elastic(8000.0, 200e9, 0.3), elastic(2700.0, 70e9, 0.33));
-    let (velocity, radius) = (0.1, 2.0 * RADIUS);
+    let (velocity, radius) = (0.2, 2.0 * RADIUS);
     let pair = pair(hard, soft, TargetShape::Sphere { radius }, velocity, 0.03);
     let impact = run(&pair, &planned(&pair));
     let reduced = |a: f64, b: f64| a * b / (a + b);
@@ -239,7 +239,7 @@ fn a_stiff_sphere_dents_a_yielding_half_space_as_finite_elements_say() {
 fn a_plate_is_a_half_space_when_no_wave_is_back_and_stiffer_when_it_is_thin() {
     let steel = elastic(8000.0, 200e9, 0.3);
     let of = |shape| {
-        let pair = pair(steel, steel, shape, 5.0, 0.1);
+        let pair = pair(steel, steel, shape, 20.0, 0.1);
         run(&pair, &planned(&pair))
     };
     let deep = of(TargetShape::HalfSpace);
@@ -255,7 +255,7 @@ fn a_plate_is_a_half_space_when_no_wave_is_back_and_stiffer_when_it_is_thin() {
 #[test]
 fn a_contact_longer_than_planned_is_run_again_on_a_wider_wall() {
     let steel = elastic(8000.0, 200e9, 0.3);
-    let pair = pair(steel, steel, TargetShape::HalfSpace, 5.0, 0.1);
+    let pair = pair(steel, steel, TargetShape::HalfSpace, 20.0, 0.1);
     let whole = planned(&pair);
     let narrow = whole.reaching(0.6 * whole.impact.estimate.contact_time);
     assert!(narrow.undisturbed() < whole.impact.estimate.contact_time);

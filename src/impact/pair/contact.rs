@@ -4,7 +4,7 @@
 //! the axis, and with the normal n of that surface. With $x_1$ and $x_2$ the two material points, the gap is $g = n \cdot (x_1 - x_2)$,
 //! and gap and impulse $\lambda$ satisfy at the end of the step
 //!
-//! $$ 0 \le \lambda_c \perp g_c / \Delta t + n_c \cdot (v_1 - v_2)_c + \sum_d W_{cd} \lambda_d \ge 0, \qquad
+//! $$ 0 \le \lambda_c \perp g_c / \Delta t + n_c \cdot (v_1 - v_2) + \sum_d W_{cd} \lambda_d \ge 0, \qquad
 //!    W = G_1 M_1^{-1} G_1^T + G_2 M_2^{-1} G_2^T $$
 //!
 //! with the splines of both bodies in G. What one body gets the other gives, so the momentum of the two is kept to rounding. Pairs

@@ -1,8 +1,9 @@
 //! A run of two bodies resumes bit for bit, keeps its momentum, and solves the conditions of contact.
 
-use super::{Bodies, PairRun, matter};
+use super::{Bodies, PairRun, matter, units_of_second};
 use crate::case::Case;
 use crate::case::pair::{PairCase, Target, TargetShape};
+use crate::material::constant::Dimension;
 use crate::material::{Flow, Material, ReferenceUnits};
 use crate::plan::pair::{PairPlan, pair_plan};
 use crate::tape::{Keep, Tape};
@@ -111,4 +112,21 @@ fn no_paired_point_ends_a_step_inside_the_other_body() {
         assert!(deepest < 0.01 * way, "{deepest:e} of {way:e}");
     }
     assert!(run.impulse > 0.0);
+}
+
+#[test]
+fn work_heats_the_second_body_by_its_own_density() {
+    let pair = pair(TargetShape::HalfSpace);
+    let (own, other) = (&pair.particle.material, &pair.target.material);
+    let units = ReferenceUnits::of(own, 1e-3);
+    let others = units_of_second(&units, other);
+    assert!((others.time() / units.time() - 1.0).abs() < 1e-14);
+    // 1 MJ/m3 of work heats 2700 kg/m3 of 900 J/(kg K) by 0.41152 K
+    let work = 1e6 / units.unit(Dimension::Stress);
+    let heat = 900.0 / others.unit(Dimension::SpecificHeat);
+    assert!((work / heat / (1e6 / 2700.0 / 900.0) - 1.0).abs() < 1e-14);
+    for dimension in [Dimension::Stress, Dimension::Rate] {
+        let ratio = others.unit(dimension) / units.unit(dimension);
+        assert!((ratio - 1.0).abs() < 1e-14);
+    }
 }

@@ -74,12 +74,7 @@ fn attempt(pair: &PairCase, plan: &PairPlan, checkpoint: Option<&Checkpoint>) ->
     let (own, other) = (&pair.particle.material, &pair.target.material);
     let units = ReferenceUnits::of(own, pair.particle.radius);
     let density = other.density / own.density;
-    // heat is per mass: the units of the second body have its density, and so another length for the same time
-    let others = ReferenceUnits {
-        density: other.density,
-        length: units.length / density.sqrt(),
-        ..units
-    };
+    let others = units_of_second(&units, other);
     let bodies = Bodies {
         matter: [matter(own, &units), matter(other, &others)],
         density,
@@ -87,6 +82,16 @@ fn attempt(pair: &PairCase, plan: &PairPlan, checkpoint: Option<&Checkpoint>) ->
     let description = format!("{pair:?} {plan:?}");
     let keeper = checkpoint.map(|checkpoint| Keeper::new(checkpoint, &description));
     PairRun::new(plan, plan.impact.velocity / units.speed(), bodies).finish(keeper)
+}
+
+/// Units in which the constants of the second body become those of the run: stresses and rates as of the first, heat, which is per
+/// mass, with its own density; so the length is another one for the same time.
+fn units_of_second(units: &ReferenceUnits, other: &Material) -> ReferenceUnits {
+    ReferenceUnits {
+        density: other.density,
+        length: units.length * (units.density / other.density).sqrt(),
+        ..*units
+    }
 }
 
 /// A material in given units.

@@ -5,6 +5,7 @@ use impactlaw::bed::filling::insert;
 use impactlaw::bed::scene::{Amount, Scene};
 use impactlaw::bed::stages::time_step;
 use impactlaw::case::Case;
+use impactlaw::case::pair::Asked;
 use impactlaw::contact::NormalLaw;
 use impactlaw::contact::elastoplastic::Elastoplastic;
 use impactlaw::contact::loading::Loading;
@@ -13,6 +14,7 @@ use impactlaw::document::Document;
 use impactlaw::export::Target;
 use impactlaw::export::source::portable::Portable;
 use impactlaw::law::{FittedLaw, LawFile};
+use impactlaw::plan::pair::pair_plans;
 use impactlaw::plan::plans;
 use impactlaw::study::{Study, group};
 use std::path::Path;
@@ -40,10 +42,17 @@ tolerance = 0.05
 
 pub(super) fn case(bytes: &[u8], _: &Path) -> Accepted {
     let path = root().join("cases/case.toml");
-    let Ok(case) = Case::parse(&text(bytes), &path) else {
-        return false;
+    let document = Document::new(&path, text(bytes));
+    let planned = match Asked::from_document(&document) {
+        Ok(Asked::RigidWall(case)) => plans(&case).unwrap_or_default(),
+        Ok(Asked::Pair(pair)) => {
+            assert!(Case::from_document(&document).is_err());
+            let plans = pair_plans(&pair).unwrap_or_default().into_iter();
+            plans.map(|plan| plan.impact).collect()
+        }
+        Err(_) => return false,
     };
-    for plan in plans(&case).unwrap_or_default() {
+    for plan in planned {
         assert!(plan.seconds.is_finite() && plan.seconds >= 0.0);
         assert!(plan.estimate.displacement > 0.0 && plan.longest_time.is_finite());
     }
