@@ -322,6 +322,10 @@ fn effects_of(
             on: material.flow.is_some(),
             reason: match material.flow {
                 None => "the material has no yield strength".to_owned(),
+                Some(_) if velocity < least => format!(
+                    "V is below the speed of first yield, {}: followed all the same, for a thin plate yields sooner",
+                    engineering(least, "m/s", 3)
+                ),
                 Some(_) => format!(
                     "V is {} times the speed of first yield, {}",
                     significant(velocity / least, 3),
@@ -354,7 +358,7 @@ fn effects_of(
             reason: second,
         },
         yielding("plasticity", &case.material),
-        yielding("plasticity of the wall", &pair.target.material),
+        yielding("wall plasticity", &pair.target.material),
     ];
     list.extend(effects::flow_effects(
         case,
