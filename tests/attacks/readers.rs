@@ -44,7 +44,7 @@ pub struct Reader {
 pub const READERS: &[Reader] = &[
     Reader {
         name: "case",
-        sources: &["case.rs", "document.rs", "command/run.rs"],
+        sources: &["case.rs", "case/pair.rs", "document.rs", "command/run.rs"],
         kind: Kind::Text,
         seeds: || [shipped("cases", "[impact]"), vec![inputs::UNUSUAL.into()]].concat(),
         read: inputs::case,
