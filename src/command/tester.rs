@@ -1,6 +1,7 @@
 //! Command `tester`: speeds of a single-particle impact tester, what they do to the particle, and constants from measured speeds.
 
 use super::show::inverse::FoundCase;
+use super::show::tester::{Answer, Found, Throw};
 use super::{Command, Context, Verdict, print, print_json};
 use crate::atlas::Atlas;
 use crate::discover::table::Table;
@@ -11,11 +12,9 @@ use crate::tester::fit::{Fitted, Measured, Undetermined, by_steps, determination
 use crate::tester::{
     Air, Constants, Deviations, POLYMERS_AND_GLASS, Particle, Support, Tester, WITH_SOLDER,
 };
-use crate::unit::{Density, Length, Pressure, Viscosity, argument, engineering, significant};
+use crate::unit::{Density, Length, Pressure, Viscosity, argument, significant};
 use crate::{Error, Result};
 use clap::{Args, ValueEnum};
-use serde::Serialize;
-use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 /// Speed at which a single-particle impact tester throws a particle, by the correlation of Saifoori (2025), with e and compression by the
@@ -100,42 +99,6 @@ const ATMOSPHERE: f64 = 101_325.0;
 /// Tolerance of a case that is written.
 const TOLERANCE: f64 = 0.02;
 
-/// One speed.
-#[derive(Debug, Serialize)]
-struct Throw {
-    gauge_pressure_pa: f64,
-    velocity_m_s: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    interval_m_s: Option<[f64; 2]>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    restitution: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    compression_ratio: Option<f64>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    notes: Vec<String>,
-}
-
-/// What is printed.
-#[derive(Debug, Serialize)]
-struct Answer {
-    constants: [f64; 4],
-    #[serde(skip_serializing_if = "Option::is_none")]
-    found: Option<Found>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    throws: Vec<Throw>,
-}
-
-/// Constants found from measured speeds.
-#[derive(Debug, Serialize)]
-struct Found {
-    speeds: usize,
-    half_widths_95: [f64; 4],
-    scatter: f64,
-    determination: f64,
-    by_steps: [f64; 4],
-    by_steps_determination: f64,
-}
-
 impl Command for TesterArgs {
     const EXAMPLES: &'static [&'static str] = &[
         "impactlaw tester --diameter 500um --density 7274kg/m3 --pressure 0kPa,10kPa,15kPa,20kPa --sigma-diameter 0.02",
@@ -187,7 +150,7 @@ impl Command for TesterArgs {
         };
         match self.json {
             true => print_json(&answer)?,
-            false => print(&text(&answer))?,
+            false => print(&answer.text())?,
         }
         Ok(Verdict::Met)
     }
@@ -499,75 +462,4 @@ fn support_of(all: &[Measured]) -> Support {
         diameters: range(|one| one.particle.diameter),
         densities: range(|one| one.particle.density),
     }
-}
-
-/// The answer as text.
-fn text(answer: &Answer) -> String {
-    let mut text = String::new();
-    let digits = |x: f64| significant(x, 4);
-    if let Some(found) = &answer.found {
-        let _ = writeln!(
-            text,
-            "{:<24} {:>10} {:>10} {:>10} {:>10} {:>8}\n{:<24} {:>10} {:>10} {:>10} {:>10} {:>8}",
-            format!("from {} speeds", found.speeds),
-            "C1",
-            "C2",
-            "C3",
-            "C4",
-            "R2",
-            "all at once",
-            digits(answer.constants[0]),
-            digits(answer.constants[1]),
-            digits(answer.constants[2]),
-            digits(answer.constants[3]),
-            digits(found.determination),
-        );
-        let [c1, c2, c3, c4] = found.half_widths_95;
-        let _ = writeln!(
-            text,
-            "{:<24} {:>10} {:>10} {:>10} {:>10}",
-            "95 % interval, +-",
-            format!("{} %", significant(100.0 * c1, 2)),
-            significant(c2, 2),
-            significant(c3, 2),
-            significant(c4, 2),
-        );
-        let [c1, c2, c3, c4] = found.by_steps.map(digits);
-        let _ = writeln!(
-            text,
-            "{:<24} {c1:>10} {c2:>10} {c3:>10} {c4:>10} {:>8}\nspeeds scatter by {} %",
-            "step by step (thesis)",
-            digits(found.by_steps_determination),
-            significant(100.0 * found.scatter, 2),
-        );
-    }
-    if answer.throws.is_empty() {
-        return text;
-    }
-    let _ = writeln!(
-        text,
-        "{:>10} {:>9} {:>16} {:>12} {:>12}",
-        "pressure", "V (m/s)", "95 % interval", "restitution", "compression"
-    );
-    for throw in &answer.throws {
-        let interval = throw.interval_m_s.map_or("-".to_owned(), |[low, high]| {
-            format!("{} to {}", significant(low, 3), significant(high, 3))
-        });
-        let shown = |value: Option<f64>| value.map_or("-".to_owned(), |x| significant(x, 3));
-        let _ = writeln!(
-            text,
-            "{:>10} {:>9} {interval:>16} {:>12} {:>12}{}",
-            engineering(throw.gauge_pressure_pa, "Pa", 3),
-            significant(throw.velocity_m_s, 4),
-            shown(throw.restitution),
-            shown(throw.compression_ratio),
-            throw
-                .notes
-                .iter()
-                .map(|note| format!("  {note}"))
-                .collect::<Vec<_>>()
-                .join(";"),
-        );
-    }
-    text
 }

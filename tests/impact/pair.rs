@@ -170,7 +170,7 @@ fn an_elastic_half_space_takes_the_energy_that_its_waves_carry() {
     let pair = pair(steel, steel, TargetShape::HalfSpace, velocity, 0.05);
     let Impact { summary, curve } = run(&pair, &planned(&pair));
     let lost = 1.0 - summary.restitution.powi(2);
-    // Hunter 1957, equation 24 as in Johnson 1985, equation 11.41
+    // Hunter (1957), as Johnson (1985) gives it for a steel-like Poisson ratio
     let mach = velocity / (steel.young_modulus / steel.density).sqrt();
     assert_near("Hunter", lost, 1.04 * mach.powf(0.6), 0.2);
     // the same without his half sine: Hertz's own force, F = 5/4 m V^2/delta* x^1.5 and x' = sqrt(1 - x^2.5)

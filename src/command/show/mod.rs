@@ -7,6 +7,7 @@ mod impacts;
 pub(crate) mod inverse;
 mod law;
 pub(crate) mod study;
+pub(crate) mod tester;
 pub(crate) mod thesis;
 
 pub use bed::bed;
