@@ -1,14 +1,17 @@
 //! Command `tester`: speeds of a single-particle impact tester, what they do to the particle, and constants from measured speeds.
 
+use super::material_args::MaterialArgs;
 use super::show::inverse::FoundCase;
 use super::show::tester::{Answer, Found, Throw};
 use super::{Command, Context, Verdict, print, print_json};
 use crate::atlas::Atlas;
-use crate::discover::table::Table;
 use crate::files::write_atomic;
 use crate::inverse::model::{Correction, Known, Model, Point};
+use crate::material::Flow;
+use crate::material::flow::{HARDENING_MODULUS, LinearHardening, YIELD_STRENGTH};
 use crate::tester::fall::fall;
 use crate::tester::fit::{Fitted, Measured, Undetermined, by_steps, determination, together};
+use crate::tester::table::parse;
 use crate::tester::{
     Air, Constants, Deviations, POLYMERS_AND_GLASS, Particle, Support, Tester, WITH_SOLDER,
 };
@@ -68,7 +71,7 @@ pub struct TesterArgs {
     pub young: Option<String>,
     /// Poisson's ratio.
     #[arg(long, requires = "young")]
-    pub poisson: Option<f64>,
+    pub poisson: Option<String>,
     /// Yield strength, e.g. `97.59MPa`.
     #[arg(long = "yield", requires = "young")]
     pub strength: Option<String>,
@@ -116,7 +119,8 @@ impl Command for TesterArgs {
         let mut deviations = self.deviations()?;
         let (mut support, mut found) = (self.support(), None);
         if let Some(path) = &self.measured {
-            let all = speeds(path)?;
+            let text = std::fs::read_to_string(path).map_err(Error::file("read", path))?;
+            let all = parse(&text, path)?;
             let (constants, scatter, said) = constants(&tester, &all, path)?;
             tester.constants = constants;
             deviations.scatter = scatter;
@@ -237,28 +241,46 @@ impl TesterArgs {
 
     /// What the throws do to the particle, by the atlas, and the case of them.
     fn hit(&self, particle: &Particle, throws: &mut [Throw], context: &Context) -> Result<()> {
-        let (Some(young), Some(poisson_ratio), Some(strength)) =
-            (&self.young, self.poisson, &self.strength)
-        else {
+        let (Some(_), Some(given)) = (&self.young, &self.strength) else {
             return Ok(());
         };
-        let strength = argument::<Pressure>("--yield", strength)?;
-        let hardening = self.hardening.as_deref();
+        let strength = argument::<Pressure>("--yield", given)?;
+        let modulus = match &self.hardening {
+            Some(given) => argument::<Pressure>("--hardening", given)?,
+            None => 0.0,
+        };
+        let flow = match modulus {
+            0.0 => Flow::perfectly_plastic(strength),
+            modulus => LinearHardening { strength, modulus }.into(),
+        };
+        let radius = 0.5 * particle.diameter;
+        let elastic = MaterialArgs {
+            young: self.young.clone(),
+            poisson: self.poisson.clone(),
+            density: self.density.clone(),
+            radius: Some(format!("{radius:e} m")),
+        };
+        let told = [
+            (YIELD_STRENGTH, "--yield", &self.strength),
+            (HARDENING_MODULUS, "--hardening", &self.hardening),
+        ];
+        // the slips of units that a case file is held to
+        let material = elastic
+            .case("tester", TOLERANCE, Some(flow), &told)?
+            .material;
         let known = Known {
-            density: particle.density,
-            young_modulus: argument::<Pressure>("--young", young)?,
-            poisson_ratio,
-            hardening: hardening.map_or(Ok(0.0), |h| argument::<Pressure>("--hardening", h))?,
+            density: material.density,
+            young_modulus: material.young_modulus,
+            poisson_ratio: material.poisson_ratio,
+            hardening: modulus,
         };
         let point = Point {
             strength: strength.ln(),
             hardening: None,
         };
-        let material = known.material(&point);
         let velocities: Vec<f64> = throws.iter().map(|throw| throw.velocity_m_s).collect();
-        // the slips of units that a case file is held to
         let case = FoundCase {
-            radius: 0.5 * particle.diameter,
+            radius,
             velocities: &velocities,
             tolerance: TOLERANCE,
         }
@@ -344,64 +366,6 @@ fn throw(
         compression_ratio: None,
         notes,
     }
-}
-
-/// Measured speeds of a file.
-fn speeds(path: &Path) -> Result<Vec<Measured>> {
-    const COLUMNS: [&str; 4] = [
-        "density_kg_m3",
-        "diameter_m",
-        "gauge_pressure_Pa",
-        "velocity_m_s",
-    ];
-    let table = Table::read(path)?;
-    let value = |key: String, found: String, allowed: &str| Error::Value {
-        path: path.to_owned(),
-        key,
-        found,
-        allowed: allowed.to_owned(),
-        place: None,
-    };
-    let columns = COLUMNS.map(|name| table.inputs.iter().find(|column| column.name == name));
-    let [
-        Some(density),
-        Some(diameter),
-        Some(pressure),
-        Some(velocity),
-    ] = columns
-    else {
-        let missing: Vec<&str> = COLUMNS
-            .into_iter()
-            .zip(columns)
-            .filter_map(|(name, column)| column.is_none().then_some(name))
-            .collect();
-        return Err(value(
-            missing.join(", "),
-            "no column".to_owned(),
-            "must be there, in these or other units: `gauge_pressure_kPa`",
-        ));
-    };
-    let mut all = Vec::new();
-    for (row, line) in table.lines.iter().enumerate() {
-        for column in [density, diameter, pressure, velocity] {
-            if column.values[row] <= 0.0 {
-                return Err(value(
-                    format!("line {line}, {}", column.name),
-                    column.values[row].to_string(),
-                    "must be positive; a fall without a vacuum tells nothing of the correlation",
-                ));
-            }
-        }
-        all.push(Measured {
-            particle: Particle {
-                diameter: diameter.values[row],
-                density: density.values[row],
-            },
-            pressure: pressure.values[row],
-            speed: velocity.values[row],
-        });
-    }
-    Ok(all)
 }
 
 /// Constants from measured speeds, their scatter, and what is said of them.

@@ -12,6 +12,7 @@
 
 pub mod fall;
 pub mod fit;
+pub mod table;
 
 use std::ops::RangeInclusive;
 

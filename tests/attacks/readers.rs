@@ -109,6 +109,14 @@ pub const READERS: &[Reader] = &[
         share: 5,
     },
     Reader {
+        name: "measured speeds of a tester",
+        sources: &["command/tester.rs"],
+        kind: Kind::Text,
+        seeds: || vec![results::THROWN.into()],
+        read: results::thrown,
+        share: 5,
+    },
+    Reader {
         name: "equations",
         sources: &["discover/file.rs"],
         kind: Kind::Text,

@@ -8,6 +8,9 @@ use impactlaw::discover::problem::{Inputs, Runs};
 use impactlaw::discover::table::Table;
 use impactlaw::document::Document;
 use impactlaw::inverse::measurement::{Measurements, Taken, Uncertainty};
+use impactlaw::tester::fit::{by_steps, together};
+use impactlaw::tester::table::parse;
+use impactlaw::tester::{Air, Tester, WITH_SOLDER};
 use impactlaw::thesis::{Data, Row, claims};
 use std::path::Path;
 
@@ -152,5 +155,26 @@ pub(super) fn equations(bytes: &[u8], _: &Path) -> Accepted {
         let formula = Infix::parse(&equation.formula).unwrap();
         let _ = formula.value(&|name| equation.constant(name).or(Some(2.0)));
     }
+    true
+}
+
+/// Speeds of a tester.
+pub(super) const THROWN: &str = "# made by a test\n\
+material,density_kg_m3,diameter_um,gauge_pressure_kPa,velocity_m_s\n\
+a,745,500,4,9.1\na,745,500,8,12.4\na,745,1000,4,7.8\nb,2545,1000,4,5.6\nb,2545,1000,16,10.7\nb,2545,500,8,9.2\n";
+
+pub(super) fn thrown(bytes: &[u8], _: &Path) -> Accepted {
+    let Ok(all) = parse(&text(bytes), Path::new("speeds.csv")) else {
+        return false;
+    };
+    let tester = Tester {
+        air: Air::USUAL,
+        tube: Tester::TUBE,
+        constants: WITH_SOLDER,
+    };
+    if let Ok(found) = together(&tester, &all) {
+        assert!(found.scatter >= 0.0 || found.scatter.is_nan());
+    }
+    let _ = by_steps(&tester, &all);
     true
 }
