@@ -50,12 +50,12 @@ fn the_peening_closes() {
 }
 
 #[test]
+#[ignore = "two minutes of one core"]
 fn the_impact_closes() {
     closes("bed-impact");
 }
 
 #[test]
-#[ignore = "25 s of one core"]
 fn the_heap_closes() {
     closes("bed-repose");
 }
