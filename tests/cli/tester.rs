@@ -186,7 +186,7 @@ fn slips_are_refused_and_nothing_is_written() {
                 "-o",
                 "c.toml",
             ],
-            "--yield",
+            "yield_strength",
         ),
     ] {
         let output = tester(here, more);
