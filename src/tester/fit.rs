@@ -38,6 +38,8 @@ pub struct Fitted {
     pub scatter: f64,
 }
 
+/// Fewest speeds that tell four constants and how they scatter.
+pub(super) const FEWEST: usize = 5;
 /// Relative difference below which two settings are the same.
 const SAME: f64 = 1e-6;
 
@@ -69,7 +71,7 @@ impl Logs {
 pub fn together(tester: &Tester, all: &[Measured]) -> Result<Fitted, Undetermined> {
     let logs: Vec<Logs> = all.iter().map(|one| Logs::of(tester, one)).collect();
     varies(&logs)?;
-    if logs.len() < 5 {
+    if logs.len() < FEWEST {
         let wants = "at least five speeds";
         let constant = "C1 to C4";
         return Err(Undetermined { constant, wants });

@@ -1,7 +1,7 @@
 //! A table of measured speeds as text.
 
 use super::Particle;
-use super::fit::Measured;
+use super::fit::{FEWEST, Measured};
 use crate::discover::table::Table;
 use crate::{Error, Result};
 use std::path::Path;
@@ -25,11 +25,12 @@ pub fn parse(text: &str, path: &Path) -> Result<Vec<Measured>> {
         place: None,
     };
     let is_row = |line: &&str| !line.trim().is_empty() && !line.starts_with('#');
-    if text.lines().filter(is_row).count() < 2 {
+    let rows = text.lines().filter(is_row).count().saturating_sub(1);
+    if rows < FEWEST {
         return Err(value(
             "rows".to_owned(),
-            "none".to_owned(),
-            "must be measured speeds below a line of names",
+            rows.to_string(),
+            "must be at least five measured speeds below a line of names",
         ));
     }
     let table = Table::parse(text, path)?;

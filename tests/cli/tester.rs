@@ -140,11 +140,11 @@ fn measured_speeds_that_are_none_or_tell_too_little_are_refused_by_line_or_name(
         (whole.replacen(",4,", ",0,", 1), "line 4, gauge_pressure_Pa"),
         (whole.replacen(",4,", ",four,", 1), "line 4"),
         (
-            format!("{head}745,500,4,8\n745,500,8,11\n"),
+            format!("{head}745,500,4,8\n745,500,8,11\n745,710,4,7\n745,710,8,10\n745,710,12,12\n"),
             "needs two densities",
         ),
         (
-            format!("{head}745,500,4,8\n859,710,4,8\n"),
+            format!("{head}745,500,4,8\n859,710,4,8\n745,710,4,7\n859,500,4,9\n745,500,4,8.1\n"),
             "needs two pressures",
         ),
         (String::new(), "measured speeds"),
