@@ -1,8 +1,7 @@
 //! Curve of one impact: time series and summary, in memory and as the files `curve.csv` and `summary.json`.
 
 use crate::files::{Sum, rows_text, sum_of, with_sum, write_atomic, write_rows};
-use crate::material::flow::{FlowConstants, InSi, WithFlow};
-use crate::material::{Flow, Material};
+use crate::material::{Flow, Material, MaterialTable};
 use crate::shape::Shape;
 use crate::unit::engineering;
 use crate::{Error, Result};
@@ -11,7 +10,7 @@ use std::path::Path;
 
 mod tables;
 
-pub use tables::{Cylinder, Heating, Tangential, Target, TargetMaterial};
+pub use tables::{Cylinder, Heating, Tangential, Target};
 
 /// One output interval of an impact. Field names are the CSV header (file contract).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -139,49 +138,15 @@ pub struct Summary {
 
 /// Particle that an impact belongs to (table `particle` of `summary.json`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(from = "WithFlow<ElasticParticle, InSi>")]
 pub struct Particle {
     /// R, m.
     pub radius_m: f64,
     /// Length of a cylinder, m; absent for a sphere.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub length_m: Option<f64>,
-    /// rho, kg/m3.
-    pub density_kg_m3: f64,
-    /// E, Pa.
-    #[serde(rename = "young_modulus_Pa")]
-    pub young_modulus_pa: f64,
-    /// nu.
-    pub poisson_ratio: f64,
-    /// Constants of the flow stress; none for an elastic body.
+    /// Its constants, which stand beside the radius; they are handed every other key and refuse what is none of theirs.
     #[serde(flatten)]
-    pub flow: FlowConstants<InSi>,
-}
-
-/// The keys of `particle` besides the constants of the flow stress.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ElasticParticle {
-    radius_m: f64,
-    length_m: Option<f64>,
-    density_kg_m3: f64,
-    #[serde(rename = "young_modulus_Pa")]
-    young_modulus_pa: f64,
-    poisson_ratio: f64,
-}
-
-impl From<WithFlow<ElasticParticle, InSi>> for Particle {
-    fn from(table: WithFlow<ElasticParticle, InSi>) -> Self {
-        let WithFlow { others, flow } = table;
-        Particle {
-            radius_m: others.radius_m,
-            length_m: others.length_m,
-            density_kg_m3: others.density_kg_m3,
-            young_modulus_pa: others.young_modulus_pa,
-            poisson_ratio: others.poisson_ratio,
-            flow,
-        }
-    }
+    pub material: MaterialTable,
 }
 
 /// Restitution below which errors of e are counted over it: e^2 is the share of the energy that comes back, here a hundredth, and
@@ -212,22 +177,13 @@ impl Particle {
     /// A particle of `radius` (m) and a shape in units of it.
     #[must_use]
     pub fn of_shape(material: &Material, radius: f64, shape: Shape) -> Self {
-        let Material {
-            density,
-            young_modulus,
-            poisson_ratio,
-            flow,
-        } = material;
         Particle {
             radius_m: radius,
             length_m: match shape {
                 Shape::Sphere => None,
                 Shape::Cylinder { length } => Some(length * radius),
             },
-            density_kg_m3: *density,
-            young_modulus_pa: *young_modulus,
-            poisson_ratio: *poisson_ratio,
-            flow: FlowConstants::of(flow.as_ref()),
+            material: MaterialTable::from(material),
         }
     }
 
@@ -235,13 +191,14 @@ impl Particle {
     #[must_use]
     pub fn differences(&self, other: &Particle) -> Vec<String> {
         let figures = |p: &Particle| {
-            let own = p.flow.checked().map_or_else(Vec::new, |f| f.constants());
+            let m = &p.material;
+            let own = m.flow.checked().map_or_else(Vec::new, |f| f.constants());
             let mut all = vec![
                 ("radius".to_owned(), "m", Some(p.radius_m)),
                 ("length".to_owned(), "m", p.length_m),
-                ("density".to_owned(), "kg/m³", Some(p.density_kg_m3)),
-                ("young modulus".to_owned(), "Pa", Some(p.young_modulus_pa)),
-                ("poisson ratio".to_owned(), "", Some(p.poisson_ratio)),
+                ("density".to_owned(), "kg/m³", Some(m.density_kg_m3)),
+                ("young modulus".to_owned(), "Pa", Some(m.young_modulus_pa)),
+                ("poisson ratio".to_owned(), "", Some(m.poisson_ratio)),
             ];
             all.extend(Flow::all_constants().into_iter().map(|constant| {
                 let found = own.iter().find(|(c, _)| *c == constant);

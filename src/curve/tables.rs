@@ -1,8 +1,7 @@
 //! Tables of `summary.json` that only some impacts have.
 
 use super::number_or_null;
-use crate::material::Material;
-use crate::material::flow::{FlowConstants, InSi, WithFlow};
+use crate::material::MaterialTable;
 use serde::{Deserialize, Serialize};
 
 /// Final size of a cylinder (table `cylinder` of `summary.json`), from its outline as the run leaves it.
@@ -54,7 +53,7 @@ pub struct Target {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub thickness_m: Option<f64>,
     /// Its constants.
-    pub material: TargetMaterial,
+    pub material: MaterialTable,
     /// Largest travel of the place of first contact towards its centre of mass, of a plate or half-space towards its back, m.
     #[serde(deserialize_with = "number_or_null")]
     pub max_indentation_m: f64,
@@ -70,57 +69,6 @@ pub struct Target {
     /// What plastic work heated in it; absent where its flow stress knows no temperature.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub heating: Option<Heating>,
-}
-
-/// Constants of the second body (table `target.material` of `summary.json`).
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(from = "WithFlow<ElasticTarget, InSi>")]
-pub struct TargetMaterial {
-    /// rho, kg/m3.
-    pub density_kg_m3: f64,
-    /// E, Pa.
-    #[serde(rename = "young_modulus_Pa")]
-    pub young_modulus_pa: f64,
-    /// nu.
-    pub poisson_ratio: f64,
-    /// Constants of the flow stress; none for an elastic body.
-    #[serde(flatten)]
-    pub flow: FlowConstants<InSi>,
-}
-
-/// Its keys besides the constants of the flow stress.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ElasticTarget {
-    density_kg_m3: f64,
-    #[serde(rename = "young_modulus_Pa")]
-    young_modulus_pa: f64,
-    poisson_ratio: f64,
-}
-
-impl From<WithFlow<ElasticTarget, InSi>> for TargetMaterial {
-    fn from(table: WithFlow<ElasticTarget, InSi>) -> Self {
-        let WithFlow { others, flow } = table;
-        TargetMaterial {
-            density_kg_m3: others.density_kg_m3,
-            young_modulus_pa: others.young_modulus_pa,
-            poisson_ratio: others.poisson_ratio,
-            flow,
-        }
-    }
-}
-
-impl TargetMaterial {
-    /// Of a material.
-    #[must_use]
-    pub fn of(material: &Material) -> Self {
-        TargetMaterial {
-            density_kg_m3: material.density,
-            young_modulus_pa: material.young_modulus,
-            poisson_ratio: material.poisson_ratio,
-            flow: FlowConstants::of(material.flow.as_ref()),
-        }
-    }
 }
 
 /// Figures of an impact along the wall (table `tangential` of `summary.json`).

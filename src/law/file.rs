@@ -14,7 +14,7 @@ use crate::contact::spline::{Knot, SplineLoading};
 use crate::contact::unloading::Unloading;
 use crate::document::Document;
 use crate::document::keys::{Kind, key, keys, names, table};
-use crate::material::{Material, YIELD_PRESSURE_RATIO};
+use crate::material::{Material, MaterialTable, YIELD_PRESSURE_RATIO};
 use crate::theory::hertz::Hertz;
 use crate::{Error, Result};
 use serde::{Deserialize, Serialize};
@@ -217,11 +217,7 @@ impl LawFile {
 
     /// Material and range are finite and positive, and the yield point is that of the material.
     fn check_numbers(&self, document: &Document) -> Result<()> {
-        let m = &self.material;
-        document.within("material.density_kg_m3", m.density_kg_m3)?;
-        document.within("material.young_modulus_Pa", m.young_modulus_pa)?;
-        document.within("material.poisson_ratio", m.poisson_ratio)?;
-        m.flow.check(document, "material", m.young_modulus_pa)?;
+        self.material.check(document, "material")?;
         let v = &self.valid;
         let key = "valid.displacement_over_radius_max";
         document.within(key, v.displacement_over_radius_max)?;
@@ -272,13 +268,7 @@ impl LawFile {
     /// Material of the law.
     #[must_use]
     pub fn material(&self) -> Material {
-        let m = &self.material;
-        Material {
-            density: m.density_kg_m3,
-            young_modulus: m.young_modulus_pa,
-            poisson_ratio: m.poisson_ratio,
-            flow: m.flow.checked(),
-        }
+        self.material.material()
     }
 
     /// The law in the form the file names.

@@ -1,62 +1,9 @@
 //! Tables of a law file: the parts that say how good and how general a law is.
 
-use crate::document::keys::{self, key, keys, table};
+use crate::document::keys::{key, keys, table};
 use crate::fit::confidence::LeftOut;
 use crate::fit::quality::Quality;
-use crate::material::flow::{FlowConstants, InSi, WithFlow};
 use serde::{Deserialize, Serialize};
-
-/// `[material]`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(from = "WithFlow<ElasticTable, InSi>")]
-pub struct MaterialTable {
-    /// rho.
-    pub density_kg_m3: f64,
-    /// E.
-    #[serde(rename = "young_modulus_Pa")]
-    pub young_modulus_pa: f64,
-    /// nu.
-    pub poisson_ratio: f64,
-    /// Constants of the flow stress; none for an elastic body.
-    #[serde(flatten)]
-    pub flow: FlowConstants<InSi>,
-}
-
-/// The keys of `[material]` besides the constants of the flow stress.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ElasticTable {
-    density_kg_m3: f64,
-    #[serde(rename = "young_modulus_Pa")]
-    young_modulus_pa: f64,
-    poisson_ratio: f64,
-}
-
-keys! {
-    ElasticTable {
-        density_kg_m3: key("density, kg/m³", "> 0", "7274.0"),
-        young_modulus_pa as "young_modulus_Pa": key("Young's modulus, Pa", "> 0", "5.982e10"),
-        poisson_ratio: key("Poisson's ratio", "[0, 0.5)", "0.33"),
-    }
-}
-
-impl keys::Value for MaterialTable {
-    fn kind() -> keys::Kind {
-        WithFlow::<ElasticTable, InSi>::kind()
-    }
-}
-
-impl From<WithFlow<ElasticTable, InSi>> for MaterialTable {
-    fn from(table: WithFlow<ElasticTable, InSi>) -> Self {
-        let WithFlow { others, flow } = table;
-        MaterialTable {
-            density_kg_m3: others.density_kg_m3,
-            young_modulus_pa: others.young_modulus_pa,
-            poisson_ratio: others.poisson_ratio,
-            flow,
-        }
-    }
-}
 
 /// `[yield_point]`: the units of the constants.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -2,9 +2,8 @@
 
 use super::file::{Form, LawFile, SCHEMA, plain};
 use super::table::{
-    ClosedFormIntervals, ClosedFormTable, HertzTable, MaterialTable, ProvenanceTable,
-    SplineIntervals, SplineTable, ThresholdTable, UnloadingIntervals, UnloadingTable, ValidTable,
-    YieldTable,
+    ClosedFormIntervals, ClosedFormTable, HertzTable, ProvenanceTable, SplineIntervals,
+    SplineTable, ThresholdTable, UnloadingIntervals, UnloadingTable, ValidTable, YieldTable,
 };
 use crate::Result;
 use crate::atlas::Atlas;
@@ -17,8 +16,7 @@ use crate::files::{sha256, write_atomic};
 use crate::fit::confidence::LeftOut;
 use crate::fit::quality::Quality;
 use crate::fit::{Fit, FittedForm, Outcome, left_out_bound, threshold};
-use crate::material::flow::FlowConstants;
-use crate::material::{Material, YIELD_PRESSURE_RATIO};
+use crate::material::{Material, MaterialTable, YIELD_PRESSURE_RATIO};
 use std::path::Path;
 
 /// What a person who opens a law file needs to know; the equations are those of `contact::loading`, `contact::spline`,
@@ -55,7 +53,7 @@ impl LawFile {
             name: plain(&case.name),
             form: Form::Hertz,
             warnings: Vec::new(),
-            material: material_table(&case.material),
+            material: MaterialTable::from(&case.material),
             yield_point: None,
             valid: ValidTable {
                 displacement_over_radius_max: fit.flattening,
@@ -121,7 +119,7 @@ impl LawFile {
             name: plain(name),
             form: Form::Spline,
             warnings: vec![atlas.provenance(material)],
-            material: material_table(material),
+            material: MaterialTable::from(material),
             yield_point: Some(YieldTable {
                 pressure_ratio: YIELD_PRESSURE_RATIO,
                 displacement_over_radius: units.flattening,
@@ -261,15 +259,6 @@ fn worst(quality: &[Quality]) -> f64 {
         .iter()
         .map(Quality::worst)
         .fold(0.0, |worst, e| if e <= worst { worst } else { e })
-}
-
-fn material_table(material: &Material) -> MaterialTable {
-    MaterialTable {
-        density_kg_m3: material.density,
-        young_modulus_pa: material.young_modulus,
-        poisson_ratio: material.poisson_ratio,
-        flow: FlowConstants::of(material.flow.as_ref()),
-    }
 }
 
 fn hertz_table(quality: &[Quality], case: &Case) -> HertzTable {

@@ -4,9 +4,11 @@ pub mod constant;
 pub mod flow;
 pub mod reference;
 pub mod stress;
+pub mod table;
 
 pub use flow::Flow;
 pub use reference::ReferenceUnits;
+pub use table::MaterialTable;
 
 use std::f64::consts::PI;
 use stress::Moduli;

@@ -6,7 +6,7 @@ use impactlaw::document::Document;
 use impactlaw::law::file::*;
 use impactlaw::law::{AnyLaw, FittedLaw};
 use impactlaw::material::flow::FlowConstants;
-use impactlaw::material::{Flow, YIELD_PRESSURE_RATIO};
+use impactlaw::material::{Flow, MaterialTable, YIELD_PRESSURE_RATIO};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use sha2::{Digest, Sha256};

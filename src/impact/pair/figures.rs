@@ -2,9 +2,10 @@
 
 use super::PairRun;
 use crate::case::pair::{PairCase, TargetShape};
-use crate::curve::{Heating, Impact, ParticleMap, Status, Target, TargetMaterial};
+use crate::curve::{Heating, Impact, ParticleMap, Status, Target};
 use crate::impact::kernel::Warmth;
 use crate::impact::run::record::{Record, Snapshot};
+use crate::material::MaterialTable;
 use crate::plan::pair::PairPlan;
 use crate::tape::keep_fields;
 
@@ -152,7 +153,7 @@ impl PairRecord {
             shape: case.target.shape.name().to_owned(),
             radius_m: own_radius,
             thickness_m: thickness,
-            material: TargetMaterial::of(&case.target.material),
+            material: MaterialTable::from(&case.target.material),
             max_indentation_m: deepest * radius,
             residual_indentation_m: self.resting() * radius,
             plastic_work_ratio: work,
