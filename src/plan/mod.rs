@@ -97,6 +97,33 @@ pub struct Plan {
 }
 
 impl Plan {
+    /// An impact of the particle of a case at `velocity` (m/s), run as it is asked for; its points, steps and seconds are not predicted.
+    fn of(case: &Case, velocity: f64, estimate: Estimate, grid: Grid) -> Self {
+        let ring_time = match grid.shape {
+            Shape::Sphere => 1.5 * fundamental_period(case.material.poisson_ratio),
+            Shape::Cylinder { length } => bar::ring_time(length),
+        };
+        Plan {
+            velocity,
+            run_velocity: velocity,
+            angle: case.angle,
+            friction: case.friction,
+            geometry: geometry(case),
+            estimate,
+            effects: Vec::new(),
+            plastic: case.material.flow.is_some(),
+            tolerance: case.tolerance,
+            grid,
+            scheme: Scheme::default(),
+            impacts: 1,
+            ring_time,
+            longest_time: 6.0 * estimate.contact_time + 4.0 * ring_time,
+            points: 0,
+            steps: 0,
+            seconds: 0.0,
+        }
+    }
+
     /// From what is run to what was asked for.
     #[must_use]
     pub fn similarity(&self) -> Similarity {
@@ -173,32 +200,47 @@ pub fn plans(case: &Case) -> Result<Vec<Plan>> {
     };
     let mut plans = Vec::with_capacity(case.velocities.len());
     for &velocity in &case.velocities {
-        let least = least_tolerance(case, velocity * case.angle.cos());
-        if case.tolerance < least {
-            let allowed = format!(
-                "must be at least {} at {velocity} m/s: no smaller one is shown to be met",
-                significant(least, 2)
-            );
+        if let Some(allowed) = too_fine(case, velocity) {
             return refuse("accuracy.tolerance", case.tolerance.to_string(), allowed);
         }
         let plan = plan(case, velocity);
-        let fits = plan.points <= MOST_POINTS;
-        if !fits || !plan.seconds.is_finite() || plan.seconds > LONGEST_RUN {
-            let found = format!(
-                "{} points and {} core seconds at {velocity} m/s",
-                significant(plan.points as f64, 3),
-                significant(plan.seconds, 3)
-            );
-            let allowed = format!(
-                "at most {} points and {} s, a month, are run; check the units, or ask for a larger tolerance",
-                significant(MOST_POINTS as f64, 2),
-                significant(LONGEST_RUN, 2)
-            );
+        if let Some([found, allowed]) = oversize(&plan) {
             return refuse("impact.velocities", found, allowed);
         }
         plans.push(plan);
     }
     Ok(plans)
+}
+
+/// What a plan needs and what is allowed, where it needs more memory or time than there is sense in.
+fn oversize(plan: &Plan) -> Option<[String; 2]> {
+    let fits = plan.points <= MOST_POINTS;
+    if fits && plan.seconds.is_finite() && plan.seconds <= LONGEST_RUN {
+        return None;
+    }
+    let found = format!(
+        "{} points and {} core seconds at {} m/s",
+        significant(plan.points as f64, 3),
+        significant(plan.seconds, 3),
+        plan.velocity
+    );
+    let allowed = format!(
+        "at most {} points and {} s, a month, are run; check the units, or ask for a larger tolerance",
+        significant(MOST_POINTS as f64, 2),
+        significant(LONGEST_RUN, 2)
+    );
+    Some([found, allowed])
+}
+
+/// What is said of the tolerance where a case asks for a smaller one at `velocity`.
+fn too_fine(case: &Case, velocity: f64) -> Option<String> {
+    let least = least_tolerance(case, velocity * case.angle.cos());
+    (case.tolerance < least).then(|| {
+        format!(
+            "must be at least {} at {velocity} m/s: no smaller one is shown to be met",
+            significant(least, 2)
+        )
+    })
 }
 
 /// Plan one impact of a case.
@@ -250,28 +292,11 @@ pub fn plan(case: &Case, velocity: f64) -> Plan {
     }
     effects.push(similar::mass_scaling(&grid, &estimate));
     effects.push(similar::similar_impact(asked, velocity, &estimate));
-    let ring_time = match shape {
-        Shape::Sphere => 1.5 * fundamental_period(material.poisson_ratio),
-        Shape::Cylinder { length } => bar::ring_time(length),
-    };
     let plan = Plan {
-        velocity: asked,
         run_velocity: velocity,
-        angle: case.angle,
-        friction: case.friction,
-        geometry,
-        estimate,
         effects,
         plastic,
-        tolerance: case.tolerance,
-        grid,
-        scheme: Scheme::default(),
-        impacts: 1,
-        ring_time,
-        longest_time: 6.0 * estimate.contact_time + 4.0 * ring_time,
-        points: 0,
-        steps: 0,
-        seconds: 0.0,
+        ..Plan::of(case, asked, estimate, grid)
     };
     with_prediction(plan, material)
 }

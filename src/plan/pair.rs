@@ -2,16 +2,11 @@
 //!
 //! Units are those of a plan of one body: lengths in R of the particle, times in R/c0 of its material.
 
-use super::{
-    Effect, Estimate, Geometry, Grid, Plan, Remedies, cells_per_radius, effects, far_cells,
-    fundamental_period, graded,
-};
+use super::{Effect, Estimate, Grid, Plan, effects, graded, grid};
 use crate::Result;
 use crate::case::pair::{PairCase, TargetShape};
 use crate::material::stress::Moduli;
 use crate::material::{Material, PLASTIC_PRESSURE_RATIO, YIELD_PRESSURE_RATIO};
-use crate::scheme::Scheme;
-use crate::shape::Shape;
 use crate::unit::{engineering, significant};
 use refusal::{DEEPEST, check, check_size};
 use std::f64::consts::PI;
@@ -65,6 +60,21 @@ pub struct BodyGrid {
     pub coarse: f64,
 }
 
+impl BodyGrid {
+    /// A body with the cells that a particle has at the contact.
+    fn of(extent: Extent, grid: &Grid) -> Self {
+        BodyGrid {
+            extent,
+            points_per_direction: grid.points_per_direction,
+            fine: grid.fine,
+            fine_width: grid.fine_width,
+            fine_depth: grid.fine_depth,
+            growth: grid.growth,
+            coarse: grid.coarse,
+        }
+    }
+}
+
 /// Plan of one impact of two bodies.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PairPlan {
@@ -82,16 +92,7 @@ impl PairPlan {
     /// Grid of the particle.
     #[must_use]
     pub fn particle_grid(&self) -> BodyGrid {
-        let grid = &self.impact.grid;
-        BodyGrid {
-            extent: Extent::Sphere { radius: 1.0 },
-            points_per_direction: grid.points_per_direction,
-            fine: grid.fine,
-            fine_width: grid.fine_width,
-            fine_depth: grid.fine_depth,
-            growth: grid.growth,
-            coarse: grid.coarse,
-        }
+        BodyGrid::of(Extent::Sphere { radius: 1.0 }, &self.impact.grid)
     }
 
     /// Time in which a wave comes back from where the second body is cut off: the rim of a plate, the end of a half-space.
@@ -228,23 +229,7 @@ pub fn pair_plan(pair: &PairCase, velocity: f64) -> PairPlan {
     let speed = velocity / (material.young_modulus / material.density).sqrt();
     let contact = Contact::of(pair);
     let estimate = contact.estimate(pair, speed);
-    let a = estimate.contact_radius;
-    let fine = a / cells_per_radius(case.tolerance);
-    let coarse = far_cells(speed, case.tolerance);
-    let grid = Grid {
-        shape: Shape::Sphere,
-        degree: 2,
-        points_per_direction: 2,
-        fine,
-        fine_width: 1.2 * a,
-        fine_depth: 0.6 * a,
-        growth: 1.15,
-        coarse,
-        dt_share: 1.0,
-        scaled: 0.0,
-        remedies: Remedies::NONE,
-    };
-    let ring_time = 1.5 * fundamental_period(material.poisson_ratio);
+    let grid = grid(&estimate, case, velocity);
     let other = &pair.target.material;
     let waves = Moduli::new(
         other.young_modulus / material.young_modulus,
@@ -252,7 +237,7 @@ pub fn pair_plan(pair: &PairCase, velocity: f64) -> PairPlan {
     );
     let density = other.density / material.density;
     let shear_speed = (waves.shear / density).sqrt();
-    let wave_cells = (shear_speed * estimate.contact_time / WAVE_CELLS).max(coarse);
+    let wave_cells = (shear_speed * estimate.contact_time / WAVE_CELLS).max(grid.coarse);
     let (extent, thickness) = match pair.target.shape {
         TargetShape::Sphere { radius } => {
             let radius = radius / case.radius;
@@ -263,35 +248,15 @@ pub fn pair_plan(pair: &PairCase, velocity: f64) -> PairPlan {
     };
     let plan = PairPlan {
         impact: Plan {
-            velocity,
-            run_velocity: velocity,
-            angle: 0.0,
-            friction: 0.0,
-            geometry: Geometry::Axisymmetric,
-            estimate,
             effects: effects_of(pair, velocity, &contact, &estimate),
-            plastic: material.flow.is_some(),
-            tolerance: case.tolerance,
-            grid,
-            scheme: Scheme::default(),
-            impacts: 1,
-            ring_time,
-            longest_time: 6.0 * estimate.contact_time + 4.0 * ring_time,
-            points: 0,
-            steps: 0,
-            seconds: 0.0,
+            ..Plan::of(case, velocity, estimate, grid)
         },
         target: BodyGrid {
-            extent,
-            points_per_direction: 2,
-            fine,
-            fine_width: 1.2 * a,
-            fine_depth: 0.6 * a,
-            growth: 1.15,
             coarse: match extent {
                 Extent::Sphere { radius } => wave_cells.min(0.1 * radius),
                 Extent::Layer { .. } => wave_cells,
             },
+            ..BodyGrid::of(extent, &grid)
         },
         wave_speed: waves.dilatational_speed(density),
         thickness,
@@ -305,41 +270,9 @@ const UNKNOWN: Extent = Extent::Layer {
     width: 0.0,
 };
 
-/// Effects of an impact of two bodies, on or off, with reasons.
-fn effects_of(
-    pair: &PairCase,
-    velocity: f64,
-    contact: &Contact,
-    estimate: &Estimate,
-) -> Vec<Effect> {
-    let case = &pair.particle;
-    let unit = case.material.young_modulus;
-    let speed = (unit / case.material.density).sqrt();
-    let yielding = |name, material: &Material| {
-        let least = contact.yield_speed(material, unit) * speed;
-        Effect {
-            name,
-            on: material.flow.is_some(),
-            reason: match material.flow {
-                None => "the material has no yield strength".to_owned(),
-                Some(_) if velocity < least => format!(
-                    "V is below the speed of first yield, {}: followed all the same, for a thin plate yields sooner",
-                    engineering(least, "m/s", 3)
-                ),
-                Some(_) => format!(
-                    "V is {} times the speed of first yield, {}",
-                    significant(velocity / least, 3),
-                    engineering(least, "m/s", 3)
-                ),
-            },
-        }
-    };
-    let off = |name, reason: &str| Effect {
-        name,
-        on: false,
-        reason: reason.to_owned(),
-    };
-    let second = match pair.target.shape {
+/// What the second body is.
+fn second_body(shape: TargetShape) -> String {
+    match shape {
         TargetShape::Sphere { radius } => {
             format!("a sphere of {}, free to move", engineering(radius, "m", 4))
         }
@@ -350,12 +283,49 @@ fn effects_of(
         TargetShape::HalfSpace => {
             "a half-space, cut off where no wave comes back in time".to_owned()
         }
+    }
+}
+
+/// How fast a body is hit whose first yield takes the speed `least`, m/s; infinite for one that never yields.
+fn over_yield(velocity: f64, least: f64) -> String {
+    if least.is_infinite() {
+        return "the material has no yield strength".to_owned();
+    }
+    let at = engineering(least, "m/s", 3);
+    if velocity < least {
+        return format!(
+            "V is below the speed of first yield, {at}: followed all the same, for a thin plate yields sooner"
+        );
+    }
+    let times = significant(velocity / least, 3);
+    format!("V is {times} times the speed of first yield, {at}")
+}
+
+/// Effects of an impact of two bodies, on or off, with reasons.
+fn effects_of(
+    pair: &PairCase,
+    velocity: f64,
+    contact: &Contact,
+    estimate: &Estimate,
+) -> Vec<Effect> {
+    let case = &pair.particle;
+    let unit = case.material.young_modulus;
+    let speed = (unit / case.material.density).sqrt();
+    let yielding = |name, material: &Material| Effect {
+        name,
+        on: material.flow.is_some(),
+        reason: over_yield(velocity, contact.yield_speed(material, unit) * speed),
+    };
+    let off = |name, reason: &str| Effect {
+        name,
+        on: false,
+        reason: reason.to_owned(),
     };
     let mut list = vec![
         Effect {
             name: "second body",
             on: true,
-            reason: second,
+            reason: second_body(pair.target.shape),
         },
         yielding("plasticity", &case.material),
         yielding("wall plasticity", &pair.target.material),

@@ -2,9 +2,7 @@
 
 use super::{Contact, PairPlan};
 use crate::case::pair::{PairCase, TargetShape};
-use crate::plan::{
-    Estimate, FASTEST_SHOWN, LARGE_FROM, LONGEST_RUN, MOST_POINTS, least_tolerance, severity,
-};
+use crate::plan::{Estimate, FASTEST_SHOWN, LARGE_FROM, oversize, severity, too_fine};
 use crate::unit::{engineering, significant};
 use crate::{Error, Result};
 use std::ops::RangeInclusive;
@@ -49,12 +47,7 @@ pub(super) fn check(pair: &PairCase, velocity: f64) -> Result<()> {
         );
         return Err(refused(pair, "wall.radius", found, allowed));
     }
-    let least = least_tolerance(case, velocity);
-    if case.tolerance < least {
-        let allowed = format!(
-            "must be at least {} at {velocity} m/s: no smaller one is shown to be met",
-            significant(least, 2)
-        );
+    if let Some(allowed) = too_fine(case, velocity) {
         let found = case.tolerance.to_string();
         return Err(refused(pair, "accuracy.tolerance", found, allowed));
     }
@@ -107,20 +100,9 @@ fn check_thickness(pair: &PairCase, velocity: f64, estimate: &Estimate) -> Resul
 }
 
 /// That a run is not larger than there is sense in.
-pub(super) fn check_size(pair: &PairCase, PairPlan { impact, .. }: &PairPlan) -> Result<()> {
-    if impact.points <= MOST_POINTS && impact.seconds.is_finite() && impact.seconds <= LONGEST_RUN {
-        return Ok(());
+pub(super) fn check_size(pair: &PairCase, plan: &PairPlan) -> Result<()> {
+    match oversize(&plan.impact) {
+        None => Ok(()),
+        Some([found, allowed]) => Err(refused(pair, "impact.velocities", found, allowed)),
     }
-    let found = format!(
-        "{} points and {} core seconds at {} m/s",
-        significant(impact.points as f64, 3),
-        significant(impact.seconds, 3),
-        impact.velocity
-    );
-    let allowed = format!(
-        "at most {} points and {} s, a month, are run; check the units, or ask for a larger tolerance",
-        significant(MOST_POINTS as f64, 2),
-        significant(LONGEST_RUN, 2)
-    );
-    Err(refused(pair, "impact.velocities", found, allowed))
 }
