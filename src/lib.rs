@@ -43,6 +43,7 @@ pub mod scheme;
 pub mod shape;
 pub mod space;
 pub mod study;
+pub mod table;
 pub mod tape;
 pub mod tester;
 pub mod theory;

@@ -1,10 +1,11 @@
 //! Problem: from a table to groups, distinct runs and scaled figures, by units alone.
 
-use super::dimension::{Dimension, MOST, groups, product_of};
+use super::dimension::{MOST, groups, product_of};
 use super::formula::Columns;
 use super::ranking::spearman;
 use super::table::{Column, Table};
 use crate::material::{Flow, Material, YIELD_PRESSURE_RATIO};
+use crate::table::Dimension;
 use crate::{Error, Result};
 use nalgebra::{DMatrix, DVector};
 use std::collections::BTreeMap;

@@ -1,7 +1,7 @@
 //! Table: the columns of a study by name, with the units their names end in.
 
-use super::dimension::{Dimension, Named};
 use crate::study::Groups;
+use crate::table::{self, Dimension, Named, Row};
 use crate::{Error, Result};
 use std::path::{Path, PathBuf};
 
@@ -153,16 +153,13 @@ impl Table {
             converted: Vec::new(),
             tolerance: None,
             failed: text.failed,
-            lines: text.lines.clone(),
+            lines: text.table.rows.iter().map(|row| row.line).collect(),
         };
-        let derived = match RAW
-            .iter()
-            .all(|raw| text.names.iter().any(|name| name == raw))
-        {
+        let derived = match RAW.iter().all(|raw| text.table.place(raw).is_some()) {
             true => Groups::column_names(),
             false => Vec::new(),
         };
-        for (at, name) in text.names.iter().enumerate() {
+        for (at, table::Column { head, name, .. }) in text.table.columns.iter().enumerate() {
             if name == STATUS {
                 continue;
             }
@@ -176,9 +173,8 @@ impl Table {
                 continue;
             }
             let column = text.column(at, values)?;
-            if *name != text.heads[at] {
-                let pair = (text.heads[at].clone(), name.clone());
-                table.converted.push(pair);
+            if name != head {
+                table.converted.push((head.clone(), name.clone()));
             }
             match is_figure(name) {
                 true => table.figures.push(column),
@@ -190,7 +186,7 @@ impl Table {
                 .iter()
                 .find(|other| !one.constant() && other.values == one.values);
             if let Some(twin) = twin {
-                return Err(text.refuse(
+                return Err(text.table.refuse(
                     &one.name,
                     format!("the values of `{}`", twin.name),
                     "two columns that never differ cannot be told apart: take one out",
@@ -275,99 +271,55 @@ fn is_word(cell: &&str) -> bool {
     !is_void(cell) && cell.parse::<f64>().is_err()
 }
 
-/// A table as text: its columns by name, and the rows that ended well.
+/// A table as text, of the rows that ended well.
 struct Text<'a> {
-    path: &'a Path,
-    /// Names as they are written.
-    heads: Vec<String>,
-    /// Names in SI units.
-    names: Vec<String>,
-    /// What the names say of their numbers.
-    named: Vec<Option<Named>>,
-    rows: Vec<csv::StringRecord>,
-    /// Line of each row.
-    lines: Vec<u64>,
+    table: table::Table<'a>,
     /// Rows that did not end well.
     failed: usize,
 }
 
 impl<'a> Text<'a> {
     fn of(text: &str, path: &'a Path) -> Result<Self> {
-        let mut reader = csv::ReaderBuilder::new()
-            .comment(Some(b'#'))
-            .from_reader(text.as_bytes());
-        let broken = |error: csv::Error| {
-            let at = error.position().map_or(0, csv::Position::line);
-            let found = format!("line {at}: {error}");
-            Error::in_table(path, "table", found, "must be the results.csv of a study")
-        };
-        let heads = reader.headers().map_err(broken)?;
-        let heads: Vec<String> = heads.iter().map(|name| name.trim().to_owned()).collect();
-        let named: Vec<Option<Named>> = heads.iter().map(|name| Named::of(name)).collect();
-        let names: Vec<String> = heads
-            .iter()
-            .zip(&named)
-            .map(|(head, named)| named.as_ref().map_or(head, |named| &named.name).clone())
-            .collect();
-        for (i, name) in names.iter().enumerate() {
-            if names[..i].contains(name) {
-                let found = "the column twice".to_owned();
-                return Err(Error::in_table(
-                    path,
-                    name,
-                    found,
-                    "every column once, whatever its unit",
-                ));
-            }
+        let mut table = table::Table::parse(text, path, "must be the results.csv of a study")?;
+        let count = table.rows.len();
+        if let Some(at) = table.place(STATUS) {
+            table.rows.retain(|row| row.cell(at) == "ok");
         }
-        let all = reader.records().collect::<std::result::Result<Vec<_>, _>>();
-        let all = all.map_err(broken)?;
-        let count = all.len();
-        let status = names.iter().position(|name| name == STATUS);
-        let ok = |row: &csv::StringRecord| status.is_none_or(|at| &row[at] == "ok");
-        let rows: Vec<csv::StringRecord> = all.into_iter().filter(ok).collect();
-        if rows.len() < 2 {
-            let found = format!("{} with status ok", rows.len());
+        let left = table.rows.len();
+        if left < 2 {
+            let found = format!("{left} with status ok");
             let allowed = "an equation needs many: run a study of more cases";
-            return Err(Error::in_table(path, "rows", found, allowed));
+            return Err(table.refuse("rows", found, allowed));
         }
-        let line = |row: &csv::StringRecord| row.position().map_or(0, csv::Position::line);
         Ok(Text {
-            path,
-            heads,
-            names,
-            named,
-            lines: rows.iter().map(line).collect(),
-            failed: count - rows.len(),
-            rows,
+            table,
+            failed: count - left,
         })
     }
 
-    fn refuse(&self, key: &str, found: String, allowed: &str) -> Error {
-        Error::in_table(self.path, key, found, allowed)
-    }
-
     /// Refusal of a cell.
-    fn refuse_cell(&self, key: &str, at: usize, row: usize, allowed: &str) -> Error {
-        let cell = self.rows[row][at].trim();
-        let found = format!("`{cell}` in line {}", self.lines[row]);
-        self.refuse(key, found, allowed)
+    fn refuse_cell(&self, key: &str, at: usize, row: &Row, allowed: &str) -> Error {
+        let found = format!("`{}` in line {}", row.cell(at), row.line);
+        self.table.refuse(key, found, allowed)
     }
 
     /// Numbers of a column as they are written; none of one that holds words, or nothing that a case has.
     fn numbers(&self, at: usize) -> Result<Option<Vec<f64>>> {
-        let name = &self.names[at];
-        let cells: Vec<&str> = self.rows.iter().map(|row| row[at].trim()).collect();
+        let name = &self.table.columns[at].name;
+        let rows = &self.table.rows;
+        let cells: Vec<&str> = rows.iter().map(|row| row.cell(at)).collect();
         let figure = is_figure(name);
         if cells.iter().all(|cell| cell.is_empty()) {
-            return Err(self.refuse(name, "an empty column".to_owned(), "a value in every row"));
+            return Err(self
+                .table
+                .refuse(name, "an empty column", "a value in every row"));
         }
         // constants of flow stresses that no case has, and names of runs
         if (!figure && cells.iter().all(is_void)) || cells.iter().all(is_word) {
             return Ok(None);
         }
         let mut values = Vec::with_capacity(cells.len());
-        for (row, cell) in cells.iter().enumerate() {
+        for (row, cell) in rows.iter().zip(&cells) {
             match cell.parse::<f64>() {
                 Ok(value) if value.is_finite() => values.push(value),
                 // counts and times of runs are not looked at
@@ -381,29 +333,35 @@ impl<'a> Text<'a> {
     /// The tolerance that all runs were planned for.
     fn tolerance(&self, at: usize, values: Vec<f64>) -> Result<f64> {
         let column = Column {
-            name: self.names[at].clone(),
+            name: self.table.columns[at].name.clone(),
             dimension: Dimension::default(),
             values,
         };
         let [low, high] = column.range();
         let found = format!("{low} to {high}");
         if !(low > 0.0 && high <= 0.2) {
-            return Err(self.refuse(&column.name, found, "must lie in (0, 0.2], or be left out"));
+            return Err(self.table.refuse(
+                &column.name,
+                found,
+                "must lie in (0, 0.2], or be left out",
+            ));
         }
         if !column.constant() {
             let allowed = "must be the same in every row: runs of one error make an equation";
-            return Err(self.refuse(&column.name, found, allowed));
+            return Err(self.table.refuse(&column.name, found, allowed));
         }
         Ok(low)
     }
 
     /// A column in SI units, of its numbers as they are written.
     fn column(&self, at: usize, mut values: Vec<f64>) -> Result<Column> {
-        let (name, head) = (&self.names[at], &self.heads[at]);
-        let Some(unit) = &self.named[at] else {
-            return Err(self.refuse(
+        let table::Column { head, name, named } = &self.table.columns[at];
+        let refuse_cell =
+            |row: usize, allowed| Err(self.refuse_cell(head, at, &self.table.rows[row], allowed));
+        let Some(unit) = named else {
+            return Err(self.table.refuse(
                 name,
-                "no unit known at the end of its name".to_owned(),
+                "no unit known at the end of its name",
                 &format!(
                     "must end in a unit ({}), or, without one, in one of {}",
                     Named::known().join(", "),
@@ -414,13 +372,13 @@ impl<'a> Text<'a> {
         if unit.factor != 1.0 {
             values.iter_mut().for_each(|value| *value *= unit.factor);
             if let Some(row) = values.iter().position(|value| value.is_infinite()) {
-                return Err(self.refuse_cell(head, at, row, "must be a number in SI units too"));
+                return refuse_cell(row, "must be a number in SI units too");
             }
         }
         if let Some((_, least, most, allowed)) = BOUNDS.iter().find(|bound| bound.0 == name) {
             let beyond = |value: &f64| !(value.is_nan() || least.allows(*value) && value <= most);
             if let Some(row) = values.iter().position(beyond) {
-                return Err(self.refuse_cell(head, at, row, allowed));
+                return refuse_cell(row, allowed);
             }
         }
         Ok(Column {

@@ -1,7 +1,8 @@
 //! Measured impacts: a table of speeds and what was measured of each, with uncertainties, in units that its header names.
 
-use super::table::{Row, Table};
+use super::table::Measured;
 use crate::Result;
+use crate::table::Row;
 use std::path::Path;
 
 /// What was measured of an impact.
@@ -98,7 +99,7 @@ impl Measurements {
     /// # Errors
     /// [`crate::Error::Value`] naming line and column of what is no measured impact.
     pub fn parse(text: &str, path: &Path, taken: &Taken) -> Result<Self> {
-        let table = Table::of(text, path)?;
+        let table = Measured::of(text, path)?;
         let figures = ["restitution", "compression_ratio", "flat_diameter_m"];
         if !table.has("velocity_m_s") {
             return Err(table.refuse(
@@ -118,7 +119,7 @@ impl Measurements {
             return Err(table.refuse("radius", "a diameter too", "must be one of both"));
         }
         let mut all = Vec::new();
-        for row in &table.rows {
+        for row in table.rows() {
             let before = all.len();
             let shot = Shot::of(&table, row, taken)?;
             for figure in Figure::ALL {
@@ -160,7 +161,7 @@ struct Shot {
 }
 
 impl Shot {
-    fn of(table: &Table<'_>, row: &Row, taken: &Taken) -> Result<Self> {
+    fn of(table: &Measured<'_>, row: &Row, taken: &Taken) -> Result<Self> {
         let positive = |value: f64| value > 0.0;
         let Some(velocity) = table.number(row, "velocity_m_s", positive, "must be above 0")? else {
             return Err(table.at(
@@ -200,7 +201,7 @@ impl Shot {
     /// A figure of the row, if it has it.
     fn figure(
         &self,
-        table: &Table<'_>,
+        table: &Measured<'_>,
         row: &Row,
         figure: Figure,
         taken: &Taken,

@@ -1,9 +1,9 @@
 //! The cases of a study as the thesis looks at them: every row with its status, and its numbers without dimension.
 
-use crate::discover::dimension::Named;
+use crate::Result;
 use crate::material::flow::{InSi, Spelling, YIELD_STRENGTH};
 use crate::material::{Flow, Material};
-use crate::{Error, Result};
+use crate::table::{self, Table};
 use std::f64::consts::PI;
 use std::path::Path;
 
@@ -200,45 +200,36 @@ fn tells_flow(column: &str) -> bool {
     others.any(|constant| InSi::key(constant) == column)
 }
 
-/// Columns of a table by their SI names.
-struct Columns<'a> {
-    path: &'a Path,
-    named: Vec<(String, f64)>,
-    /// Those that are 0 or absent in the cases of the thesis, by their places.
+/// A table of which every row becomes a [`Row`].
+struct Rows<'a> {
+    table: Table<'a>,
+    /// Columns that are 0 or absent in the cases of the thesis, by their places.
     others: Vec<usize>,
 }
 
-impl<'a> Columns<'a> {
-    fn of(heads: &csv::StringRecord, path: &'a Path) -> Result<Self> {
-        let named: Vec<(String, f64)> = heads
-            .iter()
-            .map(|head| match Named::of(head) {
-                Some(named) => (named.name, named.factor),
-                None => (head.to_owned(), 1.0),
-            })
-            .collect();
+impl<'a> Rows<'a> {
+    fn of(table: Table<'a>) -> Result<Self> {
         for name in INPUTS.iter().chain(&FIGURES) {
-            if !named.iter().any(|(known, _)| known == name) {
+            if table.place(name).is_none() {
                 let allowed = "must be there: a report needs the results.csv of a study";
-                return Err(Error::in_table(path, name, "no such column", allowed));
+                return Err(table.refuse(name, "no such column", allowed));
             }
         }
-        let is_other = |i: &usize| OBLIQUE.contains(&&named[*i].0[..]) || tells_flow(&named[*i].0);
-        let others = (0..named.len()).filter(is_other).collect();
-        Ok(Columns {
-            path,
-            named,
-            others,
+        let is_other = |name: &str| OBLIQUE.contains(&name) || tells_flow(name);
+        let columns = table.columns.iter().enumerate();
+        let others = columns.filter_map(|(at, column)| is_other(&column.name).then_some(at));
+        Ok(Rows {
+            others: others.collect(),
+            table,
         })
     }
 
     /// A row; none of a case of which the thesis says nothing.
-    fn row(&self, record: &csv::StringRecord) -> Result<Option<Row>> {
-        let cell = |at: usize| record.get(at).unwrap_or_default();
-        let place = |name: &str| self.named.iter().position(|(known, _)| known == name);
+    fn row(&self, of: &table::Row) -> Result<Option<Row>> {
+        let place = |name: &str| self.table.place(name);
         let number = |name: &str| {
-            let value = place(name).and_then(|at| Some((cell(at).parse::<f64>().ok()?, at)));
-            value.map_or(f64::NAN, |(value, at)| value * self.named[at].1)
+            let value = place(name).and_then(|at| self.table.number(of, at));
+            value.unwrap_or(f64::NAN)
         };
         let row = Row {
             density: number("density_kg_m3"),
@@ -255,29 +246,28 @@ impl<'a> Columns<'a> {
             strain: number("equivalent_plastic_strain"),
             work: number("plastic_work_ratio"),
             tolerance: number("tolerance"),
-            status: place("status").map_or("ok", cell).to_owned(),
+            status: place("status").map_or("ok", |at| of.cell(at)).to_owned(),
         };
-        let line = record.position().map_or(0, csv::Position::line);
-        let at = |found: &str, allowed: &str| {
-            let key = format!("line {line}");
-            Err(Error::in_table(self.path, &key, found, allowed))
+        let refuse = |found: &str, allowed: &str| {
+            let key = format!("line {}", of.line);
+            Err(self.table.refuse(&key, found, allowed))
         };
         let is_word = |name: &&&str| {
-            let cell = place(name).map_or("", cell);
+            let cell = place(name).map_or("", |at| of.cell(at));
             !cell.is_empty() && cell.parse::<f64>().is_err()
         };
         if let Some(name) = INPUTS.iter().find(is_word) {
-            return at(&format!("no number for `{name}`"), "must be one, or empty");
+            return refuse(&format!("no number for `{name}`"), "must be one, or empty");
         }
         let is_set = |at: &usize| {
-            let value = cell(*at).parse::<f64>();
+            let value = of.cell(*at).parse::<f64>();
             value.is_ok_and(|value| value.is_finite() && value != 0.0)
         };
         if self.others.iter().any(is_set) || row.strength.is_nan() {
             return Ok(None);
         }
         match row.flaw() {
-            Some([found, allowed]) => at(found, allowed),
+            Some([found, allowed]) => refuse(found, allowed),
             None => Ok(Some(row)),
         }
     }
@@ -287,31 +277,26 @@ impl Data {
     /// Reads the text of `results.csv`.
     ///
     /// # Errors
-    /// [`Error::Value`] for what is no such table, or has no case the thesis speaks of.
+    /// [`crate::Error::Value`] for what is no such table, or has no case the thesis speaks of.
     pub fn parse(text: &str, path: &Path) -> Result<Self> {
-        let broken = |error: csv::Error| {
-            let allowed = "must be the results.csv of a study";
-            Error::in_table(path, "table", error.to_string(), allowed)
-        };
-        let mut reader = csv::ReaderBuilder::new()
-            .comment(Some(b'#'))
-            .trim(csv::Trim::All)
-            .from_reader(text.as_bytes());
-        let columns = Columns::of(reader.headers().map_err(broken)?, path)?;
+        let rows = Rows::of(Table::parse(
+            text,
+            path,
+            "must be the results.csv of a study",
+        )?)?;
         let mut data = Data {
             rows: Vec::new(),
             others: 0,
         };
-        for record in reader.records() {
-            match columns.row(&record.map_err(broken)?)? {
+        for row in &rows.table.rows {
+            match rows.row(row)? {
                 Some(row) => data.rows.push(row),
                 None => data.others += 1,
             }
         }
         let usable = data.usable(Row::inside).len();
         if usable < FEWEST {
-            return Err(Error::in_table(
-                path,
+            return Err(rows.table.refuse(
                 "rows",
                 format!("{usable} that end well, yield and have rho V^2/Y up to {LARGEST}"),
                 "must be at least 12 of perfectly plastic bodies: the equations of the thesis are of these",

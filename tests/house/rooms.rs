@@ -14,7 +14,7 @@ const ROOMS: Order = &[
     &["error"],
     &["files", "unit", "lanes"],
     &["tape"],
-    &["document", "scheme", "space"],
+    &["document", "scheme", "space", "table"],
     &["material", "shape"],
     &["case", "contact", "curve"],
     &["plan", "study"],
