@@ -7,14 +7,12 @@ use super::{Command, Context, Verdict, print, print_json};
 use crate::atlas::Atlas;
 use crate::files::write_atomic;
 use crate::inverse::model::{Correction, Known, Model, Point};
-use crate::material::Flow;
 use crate::material::flow::{HARDENING_MODULUS, LinearHardening, YIELD_STRENGTH};
+use crate::material::{Flow, Material};
 use crate::tester::fall::fall;
 use crate::tester::fit::{Fitted, Measured, Undetermined, by_steps, determination, together};
 use crate::tester::table::parse;
-use crate::tester::{
-    Air, Constants, Deviations, POLYMERS_AND_GLASS, Particle, Support, Tester, WITH_SOLDER,
-};
+use crate::tester::{Air, Deviations, POLYMERS_AND_GLASS, Particle, Support, Tester, WITH_SOLDER};
 use crate::unit::{Density, Length, Pressure, Viscosity, argument, significant};
 use crate::{Error, Result};
 use clap::{Args, ValueEnum};
@@ -99,6 +97,8 @@ pub enum Printed {
 const DEVIATIONS: f64 = 1.959_964;
 /// Most gauge pressure that a vacuum has, Pa.
 const ATMOSPHERE: f64 = 101_325.0;
+/// What is said of another gauge pressure.
+const NO_VACUUM: &str = "must be 0 to 101 kPa: what a vacuum is below the air, counted positive";
 /// Tolerance of a case that is written.
 const TOLERANCE: f64 = 0.02;
 
@@ -116,16 +116,15 @@ impl Command for TesterArgs {
     /// constants, and for a material outside the atlas.
     fn run(&self, context: &Context) -> Result<Verdict> {
         let mut tester = self.tester()?;
-        let mut deviations = self.deviations()?;
-        let (mut support, mut found) = (self.support(), None);
+        let deviations = self.deviations()?;
+        let (mut support, mut measured, mut found) = (self.support(), None, None);
         if let Some(path) = &self.measured {
             let text = std::fs::read_to_string(path).map_err(Error::file("read", path))?;
             let all = parse(&text, path)?;
-            let (constants, scatter, said) = constants(&tester, &all, path)?;
-            tester.constants = constants;
-            deviations.scatter = scatter;
+            let (fitted, said) = constants(&tester, &all, path)?;
+            tester.constants = fitted.constants;
             support = support_of(&all);
-            found = Some(said);
+            (measured, found) = (Some(fitted), Some(said));
         }
         let mut throws = Vec::new();
         if let Some(particle) = self.particle(&tester.air)? {
@@ -137,13 +136,13 @@ impl Command for TesterArgs {
                 });
             }
             for text in &self.pressure {
-                throws.push(throw(
-                    &tester,
-                    &particle,
-                    self.gauge(text)?,
-                    &deviations,
-                    &support,
-                ));
+                let pressure = self.gauge(text)?;
+                let of_fit = |fit: &Fitted| fit.half_width(&tester, &particle, pressure);
+                let spread = Spread {
+                    given: &deviations,
+                    of_fit: measured.as_ref().map_or(0.0, of_fit),
+                };
+                throws.push(throw(&tester, &particle, pressure, &spread, &support));
             }
             self.hit(&particle, &mut throws, context)?;
         }
@@ -231,29 +230,16 @@ impl TesterArgs {
         let pressure = argument::<Pressure>("--pressure", text)?;
         match (0.0..ATMOSPHERE).contains(&pressure) {
             true => Ok(pressure),
-            false => Err(refused(
-                "--pressure",
-                text,
-                "must be 0 to 101 kPa: what a vacuum is below the air, counted positive",
-            )),
+            false => Err(refused("--pressure", text, NO_VACUUM)),
         }
     }
 
-    /// What the throws do to the particle, by the atlas, and the case of them.
-    fn hit(&self, particle: &Particle, throws: &mut [Throw], context: &Context) -> Result<()> {
-        let (Some(_), Some(given)) = (&self.young, &self.strength) else {
-            return Ok(());
-        };
-        let strength = argument::<Pressure>("--yield", given)?;
-        let modulus = match &self.hardening {
-            Some(given) => argument::<Pressure>("--hardening", given)?,
-            None => 0.0,
-        };
-        let flow = match modulus {
+    /// The particle's material, held to what a case file is.
+    fn material(&self, strength: f64, hardening: f64, radius: f64) -> Result<Material> {
+        let flow = match hardening {
             0.0 => Flow::perfectly_plastic(strength),
             modulus => LinearHardening { strength, modulus }.into(),
         };
-        let radius = 0.5 * particle.diameter;
         let elastic = MaterialArgs {
             young: self.young.clone(),
             poisson: self.poisson.clone(),
@@ -264,15 +250,27 @@ impl TesterArgs {
             (YIELD_STRENGTH, "--yield", &self.strength),
             (HARDENING_MODULUS, "--hardening", &self.hardening),
         ];
-        // the slips of units that a case file is held to
-        let material = elastic
-            .case("tester", TOLERANCE, Some(flow), &told)?
-            .material;
+        let case = elastic.case("tester", TOLERANCE, Some(flow), &told)?;
+        Ok(case.material)
+    }
+
+    /// What the throws do to the particle, by the atlas, and the case of them.
+    fn hit(&self, particle: &Particle, throws: &mut [Throw], context: &Context) -> Result<()> {
+        let (Some(_), Some(given)) = (&self.young, &self.strength) else {
+            return Ok(());
+        };
+        let strength = argument::<Pressure>("--yield", given)?;
+        let hardening = match &self.hardening {
+            Some(given) => argument::<Pressure>("--hardening", given)?,
+            None => 0.0,
+        };
+        let radius = 0.5 * particle.diameter;
+        let material = self.material(strength, hardening, radius)?;
         let known = Known {
             density: material.density,
             young_modulus: material.young_modulus,
             poisson_ratio: material.poisson_ratio,
-            hardening: modulus,
+            hardening,
         };
         let point = Point {
             strength: strength.ln(),
@@ -322,12 +320,20 @@ fn refused(argument: &str, found: &str, allowed: &str) -> Error {
     }
 }
 
+/// What makes the speed of a throw uncertain.
+struct Spread<'a> {
+    /// Standard deviations that were given.
+    given: &'a Deviations,
+    /// Half the width of its 95 % interval by the fit of measured speeds, over the speed.
+    of_fit: f64,
+}
+
 /// One throw, and what has to be known of it.
 fn throw(
     tester: &Tester,
     particle: &Particle,
     pressure: f64,
-    deviations: &Deviations,
+    spread: &Spread<'_>,
     support: &Support,
 ) -> Throw {
     let fallen = fall(particle, tester.tube, &tester.air);
@@ -342,7 +348,9 @@ fn throw(
         };
     }
     let velocity = tester.speed(particle, pressure);
-    let deviation = tester.deviation(particle, deviations);
+    let half = spread
+        .of_fit
+        .hypot(DEVIATIONS * tester.deviation(particle, spread.given));
     let mut notes = Vec::new();
     let lacks = support.lacks(particle, pressure);
     if !lacks.is_empty() {
@@ -357,43 +365,39 @@ fn throw(
             significant(fallen, 3)
         ));
     }
-    let ends = [-DEVIATIONS, DEVIATIONS].map(|d| velocity * (d * deviation).exp());
     Throw {
         gauge_pressure_pa: pressure,
         velocity_m_s: velocity,
-        interval_m_s: (deviation > 0.0).then_some(ends),
+        interval_m_s: (half > 0.0).then(|| [-half, half].map(|half| velocity * half.exp())),
         restitution: None,
         compression_ratio: None,
         notes,
     }
 }
 
-/// Constants from measured speeds, their scatter, and what is said of them.
-fn constants(tester: &Tester, all: &[Measured], path: &Path) -> Result<(Constants, f64, Found)> {
-    if let Some(one) = all
-        .iter()
-        .find(|one| one.particle.density <= tester.air.density)
-    {
-        return Err(Error::Value {
-            path: path.to_owned(),
-            key: "density_kg_m3".to_owned(),
-            found: one.particle.density.to_string(),
-            allowed: "must be above that of the air".to_owned(),
-            place: None,
-        });
+/// Constants from measured speeds, and what is said of them.
+fn constants(tester: &Tester, all: &[Measured], path: &Path) -> Result<(Fitted, Found)> {
+    let refuse =
+        |key: &str, found: String, allowed: &str| Error::in_table(path, key, found, allowed);
+    for one in all {
+        if one.particle.density <= tester.air.density {
+            let found = one.particle.density.to_string();
+            return Err(refuse(
+                "density_kg_m3",
+                found,
+                "must be above that of the air",
+            ));
+        }
+        if one.pressure >= ATMOSPHERE {
+            let found = one.pressure.to_string();
+            return Err(refuse("gauge_pressure_Pa", found, NO_VACUUM));
+        }
     }
-    let refuse = |Undetermined { constant, wants }: Undetermined| Error::Value {
-        path: path.to_owned(),
-        key: constant.to_owned(),
-        found: format!("{} speeds that do not determine it", all.len()),
-        allowed: format!("needs {wants}"),
-        place: None,
+    let refuse = |Undetermined { constant, wants }: Undetermined| {
+        let found = format!("{} speeds that do not determine it", all.len());
+        refuse(constant, found, &format!("needs {wants}"))
     };
-    let Fitted {
-        constants,
-        half_widths,
-        scatter,
-    } = together(tester, all).map_err(refuse)?;
+    let fitted = together(tester, all).map_err(refuse)?;
     let steps = by_steps(tester, all).map_err(refuse)?;
     let with = |constants| Tester {
         constants,
@@ -401,13 +405,13 @@ fn constants(tester: &Tester, all: &[Measured], path: &Path) -> Result<(Constant
     };
     let found = Found {
         speeds: all.len(),
-        half_widths_95: half_widths,
-        scatter,
-        determination: determination(&with(constants), all),
+        half_widths_95: fitted.half_widths,
+        scatter: fitted.scatter,
+        determination: determination(&with(fitted.constants), all),
         by_steps: steps.values,
         by_steps_determination: determination(&with(steps), all),
     };
-    Ok((constants, scatter, found))
+    Ok((fitted, found))
 }
 
 /// Range of measured speeds.

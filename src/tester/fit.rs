@@ -36,6 +36,28 @@ pub struct Fitted {
     pub half_widths: [f64; 4],
     /// Standard deviation of the speeds about the correlation, over the speed.
     pub scatter: f64,
+    /// Student's quantile of a 95 % interval.
+    quantile: f64,
+    /// Inverse of the triangular factor of the design: how the constants scatter together.
+    inverse: DMatrix<f64>,
+}
+
+impl Fitted {
+    /// Half the width of the 95 % interval of the logarithm of a speed that is measured next: it scatters as those before it did, and the
+    /// constants it is reckoned with are no better than they.
+    #[must_use]
+    pub fn half_width(&self, tester: &Tester, particle: &Particle, pressure: f64) -> f64 {
+        let place = Logs::of(
+            tester,
+            &Measured {
+                particle: *particle,
+                pressure,
+                speed: 1.0,
+            },
+        );
+        let of_constants = self.inverse.tr_mul(&DVector::from_row_slice(&place.row()));
+        self.quantile * self.scatter * (1.0 + of_constants.norm_squared()).sqrt()
+    }
 }
 
 /// Fewest speeds that tell four constants and how they scatter.
@@ -62,6 +84,11 @@ impl Logs {
             size: tester.size(&one.particle).ln(),
         }
     }
+
+    /// What the logarithm of $C_1$, $C_2$, $C_3$ and $C_4$ are multiplied by.
+    fn row(&self) -> [f64; 4] {
+        [1.0, self.head, -self.denser, -self.size]
+    }
 }
 
 /// All four constants at once, by least squares on the logarithms; the constants of `tester` are not looked at.
@@ -76,8 +103,7 @@ pub fn together(tester: &Tester, all: &[Measured]) -> Result<Fitted, Undetermine
         let constant = "C1 to C4";
         return Err(Undetermined { constant, wants });
     }
-    let row = |l: &Logs| [1.0, l.head, -l.denser, -l.size];
-    let design = DMatrix::from_row_iterator(logs.len(), 4, logs.iter().flat_map(row));
+    let design = DMatrix::from_row_iterator(logs.len(), 4, logs.iter().flat_map(Logs::row));
     let speeds = DVector::from_iterator(logs.len(), logs.iter().map(|l| l.speed));
     let (q, r) = design.clone().qr().unpack();
     // columns that others make up leave nothing but rounding on the diagonal
@@ -104,6 +130,8 @@ pub fn together(tester: &Tester, all: &[Measured]) -> Result<Fitted, Undetermine
         },
         half_widths: [0, 1, 2, 3].map(half),
         scatter: variance.sqrt(),
+        quantile,
+        inverse,
     })
 }
 
@@ -308,6 +336,46 @@ mod tests {
             ..tester(known)
         };
         assert!(determination(&right, &all) > 0.97);
+    }
+
+    #[test]
+    fn the_interval_of_the_next_speed_holds_it_in_95_of_100_whatever_few_speeds_there_are() {
+        let known = WITH_SOLDER;
+        let all = campaign(known, 0.0);
+        // eight speeds for four constants, and a throw beyond all of them
+        let corners: Vec<Measured> = all
+            .into_iter()
+            .step_by(5)
+            .filter(|m| [745.0, 902.0].contains(&m.particle.density))
+            .filter(|m| m.particle.diameter != 710e-6)
+            .filter(|m| m.pressure == 4e3 || m.pressure == 12e3)
+            .collect();
+        assert_eq!(corners.len(), 8);
+        let next = Particle {
+            diameter: 760e-6,
+            density: 2545.0,
+        };
+        let truth = tester(known);
+        let mut random = Pcg64::seed_from_u64(7);
+        let mut noise = || -> f64 { (0..12).map(|_| random.random::<f64>() - 0.5).sum() };
+        let (rounds, mut held) = (2000, 0);
+        for _ in 0..rounds {
+            let mut some = corners.clone();
+            for one in &mut some {
+                one.speed *= (0.03 * noise()).exp();
+            }
+            let found = together(&truth, &some).unwrap();
+            let by = Tester {
+                constants: found.constants,
+                ..truth
+            };
+            let half = found.half_width(&by, &next, 20e3);
+            let measured = truth.speed(&next, 20e3).ln() + 0.03 * noise();
+            held += usize::from((by.speed(&next, 20e3).ln() - measured).abs() < half);
+        }
+        // 95 % within three standard deviations of the count
+        let share = held as f64 / f64::from(rounds);
+        assert!((share - 0.95).abs() < 0.015, "{share}");
     }
 
     #[test]

@@ -137,7 +137,10 @@ fn measured_speeds_that_are_none_or_tell_too_little_are_refused_by_line_or_name(
     let head = "density_kg_m3,diameter_um,gauge_pressure_kPa,velocity_m_s\n";
     for (text, said) in [
         (whole.replace("velocity_m_s", "rate_m_s"), "velocity_m_s"),
-        (whole.replacen(",4,", ",0,", 1), "line 4, gauge_pressure_Pa"),
+        (
+            whole.replacen(",4,", ",0,", 1),
+            "line 4, gauge_pressure_kPa",
+        ),
         (whole.replacen(",4,", ",four,", 1), "line 4"),
         (
             format!("{head}745,500,4,8\n745,500,8,11\n745,710,4,7\n745,710,8,10\n745,710,12,12\n"),

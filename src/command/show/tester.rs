@@ -8,10 +8,11 @@ use std::fmt::Write;
 #[derive(Debug, Serialize)]
 pub struct Throw {
     /// Gauge pressure of the vacuum, Pa.
+    #[serde(rename = "gauge_pressure_Pa")]
     pub gauge_pressure_pa: f64,
     /// Speed, m/s.
     pub velocity_m_s: f64,
-    /// Its 95 % interval by the deviations that were given.
+    /// Its 95 % interval by the deviations that were given and the measured speeds that the constants are from.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub interval_m_s: Option<[f64; 2]>,
     /// e by the atlas.
