@@ -68,12 +68,18 @@ impl Command for CompareArgs {
             false => LawFile::read(&law)?,
         };
         let impacts = read_impacts(&folder, &case)?;
+        let mut provenance = context.provenance(&case.hash);
         let out = match &self.out {
             Some(out) => out.clone(),
             // what was written of the case's own law, and what the report says of it, stays
             None if is_another(&law, &folder.join("law.toml")) => {
                 let name = law.file_stem().unwrap_or_default().to_string_lossy();
-                folder.join(format!("compare-{name}"))
+                let out = folder.join(format!("compare-{name}"));
+                let of = law.canonicalize().unwrap_or_else(|_| law.clone());
+                let of = of.to_string_lossy();
+                check_unused(&out, &of)?;
+                provenance = format!("{provenance}{OF_LAW}{of}");
+                out
             }
             None => folder,
         };
@@ -95,12 +101,33 @@ impl Command for CompareArgs {
             false => add_fitted(&mut comparison, &file)?,
         }
         comparison.add_theories(self.unverified);
-        write(&comparison, &out, &context.provenance(&case.hash))?;
+        write(&comparison, &out, &provenance)?;
         match self.json {
             true => print_json(comparison.rows())?,
             false => context.say(&comparison.summary_markdown())?,
         }
         Ok(Verdict::Met)
+    }
+}
+
+/// What stands before the law in the provenance of a comparison with a law from elsewhere.
+const OF_LAW: &str = "; law ";
+
+/// That the folder of a comparison holds none with another law of the same name.
+fn check_unused(out: &Path, law: &str) -> Result<()> {
+    let table = out.join("compare.csv");
+    let text = std::fs::read_to_string(table).unwrap_or_default();
+    let first = text.lines().next().unwrap_or_default();
+    match first.rsplit_once(OF_LAW) {
+        Some((_, there)) if there != law => Err(Error::Argument {
+            argument: "--law".to_owned(),
+            found: law.to_owned(),
+            allowed: format!(
+                "{} holds the comparison with {there}, a law of the same file name: --out names another folder",
+                out.display()
+            ),
+        }),
+        _ => Ok(()),
     }
 }
 

@@ -276,6 +276,24 @@ fn a_comparison_with_another_law_leaves_that_of_the_own_one() {
         other.contains("atlas,") && !other.contains("fitted,"),
         "{other}"
     );
+    // two laws of one file name do not share a folder
+    for folder in ["a", "b"] {
+        std::fs::create_dir(here.join(folder)).unwrap();
+        std::fs::copy(
+            here.join("out/cu/law.toml"),
+            here.join(folder).join("x.toml"),
+        )
+        .unwrap();
+    }
+    said(here, &["compare", "cu.toml", "--law", "a/x.toml"], 0);
+    let of_a = || std::fs::read(here.join("out/cu/compare-x/compare.csv")).unwrap();
+    let before = of_a();
+    let text = said(here, &["compare", "cu.toml", "--law", "b/x.toml"], 2);
+    assert!(text.contains("holds the comparison with"), "{text}");
+    assert_eq!(of_a(), before);
+    said(here, &["compare", "cu.toml", "--law", "a/x.toml"], 0);
+    let elsewhere = ["compare", "cu.toml", "--law", "b/x.toml", "--out", "o"];
+    said(here, &elsewhere, 0);
 }
 
 #[test]
