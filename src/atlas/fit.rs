@@ -213,8 +213,9 @@ impl Atlas {
         for power in PASSES {
             constants = solve(&everyone, &constants, power, WHOLE)?;
         }
-        let tenths = (0..PARTS).map(|part| (0..samples.len()).map(|i| i % PARTS == part).collect());
-        let tenths: Vec<Vec<bool>> = tenths.collect();
+        let materials = materials(&samples);
+        let tenth = |part: usize| materials.iter().map(|m| m % PARTS == part).collect();
+        let tenths: Vec<Vec<bool>> = (0..PARTS).map(tenth).collect();
         let everywhere = |_: &Sample| true;
         let soft = |sample: &Sample| sample.place.young_over_yield < SOFT;
         let left_out = left_out(&samples, &constants, &tenths)?;
@@ -236,7 +237,7 @@ impl Atlas {
     }
 }
 
-/// The range that holds all impacts, in numbers that do not claim more digits than they have; no hardening is part of it.
+/// The range that holds all impacts of materials that the atlas can place.
 fn range(impacts: &[Reference]) -> Range {
     let over = |of: &dyn Fn(&Reference, &Place) -> f64| {
         let places = impacts
@@ -299,6 +300,19 @@ fn start() -> Vec<f64> {
         constants[k * TERMS] = others.map_or(START[k.min(1)], |i| START_OTHERS[i]);
     }
     constants
+}
+
+/// Number of the material of each sample: all impacts of one are left out together.
+fn materials(samples: &[Sample]) -> Vec<usize> {
+    let mut known: Vec<Place> = Vec::new();
+    let number = |sample: &Sample| {
+        let found = known.iter().position(|place| *place == sample.place);
+        found.unwrap_or_else(|| {
+            known.push(sample.place);
+            known.len() - 1
+        })
+    };
+    samples.iter().map(number).collect()
 }
 
 /// For each of the quarters of each coordinate, which samples are in it.

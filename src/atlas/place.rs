@@ -1,7 +1,7 @@
 //! Where a material stands in the atlas: its dimensionless constants, and the range of those of the impacts.
 
 use crate::material::Material;
-use crate::material::flow::YIELD_STRENGTH;
+use crate::material::flow::{HARDENING_MODULUS, YIELD_STRENGTH};
 use crate::unit::significant;
 use crate::{Error, Result};
 use serde::{Deserialize, Serialize};
@@ -39,7 +39,7 @@ impl Place {
         for (constant, value) in flow.constants() {
             match constant.key {
                 key if key == YIELD_STRENGTH.key => {}
-                "hardening_modulus" => hardening = value,
+                key if key == HARDENING_MODULUS.key => hardening = value,
                 key => {
                     let allowed = "must be left out: the atlas knows yield strength and linear hardening; `impactlaw run` makes the law of any flow stress";
                     return Err(refuse(format!("`{key}`"), allowed));
