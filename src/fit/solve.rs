@@ -119,7 +119,7 @@ fn simplex<F: Form>(
         whole,
         first: range.start,
     };
-    let corner = whole[range].to_vec();
+    let corner = whole[range.clone()].to_vec();
     let mut corners = vec![corner.clone()];
     for i in 0..corner.len() {
         let mut moved = corner.clone();
@@ -139,16 +139,8 @@ fn simplex<F: Form>(
         .map_err(failed)?;
     let best = result.state().get_best_param().cloned().unwrap_or(corner);
     let mut free = whole.to_vec();
-    free[slice_range(&best, whole, part)].copy_from_slice(&best);
+    free[range].copy_from_slice(&best);
     Ok(free)
-}
-
-/// Where the numbers of `part` lie among all.
-fn slice_range(some: &[f64], whole: &[f64], part: Part) -> std::ops::Range<usize> {
-    match part {
-        Part::Unloading => whole.len() - some.len()..whole.len(),
-        Part::Loading | Part::All => 0..some.len(),
-    }
 }
 
 /// Levenberg-Marquardt from `free` until the cost no longer falls, or where the edge of what is admissible leaves no

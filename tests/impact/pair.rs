@@ -81,8 +81,15 @@ fn equal_spheres_meet_as_each_meets_a_rigid_wall() {
         assert_near("contact time", two.contact_time_s, one.contact_time_s, 5e-3);
         assert_near("e", two.restitution, one.restitution, 5e-3);
         // the dent of either is half of the approach where waves do not matter
-        let dent = two.target.unwrap().max_indentation_m;
-        assert_near("dent", dent, 0.5 * two.max_displacement_m, 0.01);
+        let target = two.target.unwrap();
+        let half = 0.5 * two.max_displacement_m;
+        assert_near("dent", target.max_indentation_m, half, 0.01);
+        // each takes half of the plastic work, and both lose of their energy what one loses on the wall
+        if strength.is_some() {
+            let work = one.plastic_work_ratio;
+            assert_near("work", two.plastic_work_ratio, work, 5e-3);
+            assert_near("its share", target.plastic_work_ratio, 0.5 * work, 5e-3);
+        }
     }
 }
 
