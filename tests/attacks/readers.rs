@@ -290,7 +290,7 @@ pub const READERS: &[Reader] = &[
 ];
 
 /// Files of `src` that read, but nothing that anyone writes for the program or that it keeps.
-const OTHERS: [(&str, &str); 7] = [
+const OTHERS: [(&str, &str); 8] = [
     (
         "case/named.rs",
         "constants of materials, which are part of the program",
@@ -303,6 +303,10 @@ const OTHERS: [(&str, &str); 7] = [
     (
         "command/study_table.rs",
         "the first line of results, for the name of the study that they are of",
+    ),
+    (
+        "command/compare.rs",
+        "the first line of a comparison, for the law that it is with",
     ),
     ("bed/filling/memory.rs", "the system's account of memory"),
     (
