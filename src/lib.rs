@@ -49,6 +49,7 @@ pub mod tester;
 pub mod theory;
 pub mod thesis;
 pub mod unit;
+pub mod validate;
 pub mod view;
 
 pub use error::{Error, Place, Result};

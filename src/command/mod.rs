@@ -37,6 +37,7 @@ pub(crate) mod study_table;
 pub(crate) mod tester;
 pub mod theory;
 pub(crate) mod units;
+pub(crate) mod validate;
 
 use crate::files::Claim;
 use crate::{Error, Result};
@@ -106,6 +107,7 @@ verbs! {
     Atlas(atlas::AtlasArgs),
     Inverse(inverse::InverseArgs),
     Tester(tester::TesterArgs),
+    Validate(validate::ValidateArgs),
     Cost(cost::CostArgs),
     Export(export::ExportArgs),
     Law(law::LawArgs),

@@ -117,6 +117,19 @@ pub const READERS: &[Reader] = &[
         share: 5,
     },
     Reader {
+        name: "measurements of an experiment",
+        sources: &["command/validate.rs"],
+        kind: Kind::Text,
+        seeds: || {
+            vec![
+                file("cases/experiments/balls.csv"),
+                file("cases/experiments/impact-tester.csv"),
+            ]
+        },
+        read: results::experiment,
+        share: 5,
+    },
+    Reader {
         name: "equations",
         sources: &["discover/file.rs"],
         kind: Kind::Text,

@@ -25,4 +25,5 @@ mod slips;
 mod study;
 mod study_report;
 mod tester;
+mod validate;
 mod verbs;

@@ -377,6 +377,7 @@ fn every_column_of_every_file_has_its_line_and_no_other() {
     let discover = ["discover", results, "--out", "found"];
     printed(here, &[&discover[..], &quick].concat());
     printed(here, &["study", "report", results, "--out", "reported"]);
+    printed(here, &["validate", "lead-nickel", "--out", "validated"]);
     let met = assert_described(here);
 
     let reference = columns();

@@ -30,7 +30,8 @@ fn the_schemas_that_are_shipped_are_those_of_the_readers() {
 
 /// Shipped files with the kind that their first line names.
 fn files() -> Vec<(PathBuf, String)> {
-    let folders = ["cases", "models"].map(|name| std::fs::read_dir(root().join(name)).unwrap());
+    let folders = ["cases", "cases/experiments", "models"];
+    let folders = folders.map(|name| std::fs::read_dir(root().join(name)).unwrap());
     let paths = folders
         .into_iter()
         .flatten()
@@ -45,7 +46,8 @@ fn files() -> Vec<(PathBuf, String)> {
             "{}: {name}",
             path.display()
         );
-        (path, name.split('.').next().unwrap().to_owned())
+        let file = name.rsplit('/').next().unwrap();
+        (path, file.split('.').next().unwrap().to_owned())
     };
     tables.map(kind).collect()
 }

@@ -25,6 +25,7 @@ const ROOMS: Order = &[
     &["law"],
     &["compare", "cost", "discover"],
     &["inverse", "tester", "thesis"],
+    &["validate"],
     &["dem"],
     &["listing", "view"],
     &["bed"],

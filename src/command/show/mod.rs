@@ -9,6 +9,7 @@ mod law;
 pub(crate) mod study;
 pub(crate) mod tester;
 pub(crate) mod thesis;
+pub(crate) mod validate;
 
 pub use bed::bed;
 pub use impacts::{choices, curves, maps};

@@ -12,6 +12,7 @@ use impactlaw::tester::fit::{by_steps, together};
 use impactlaw::tester::table::parse;
 use impactlaw::tester::{Air, Tester, WITH_SOLDER};
 use impactlaw::thesis::{Data, Row, claims};
+use impactlaw::validate::measured;
 use std::path::Path;
 
 /// Results of a study, as far as `discover` looks at them.
@@ -176,5 +177,24 @@ pub(super) fn thrown(bytes: &[u8], _: &Path) -> Accepted {
         assert!(found.scatter >= 0.0 || found.scatter.is_nan());
     }
     let _ = by_steps(&tester, &all);
+    true
+}
+
+pub(super) fn experiment(bytes: &[u8], _: &Path) -> Accepted {
+    let Ok(all) = measured::parse(&text(bytes), Path::new("measured.csv")) else {
+        return false;
+    };
+    for (k, one) in all.iter().enumerate() {
+        assert!(
+            one.value.is_none_or(|x| x > 0.0 && x.is_finite()),
+            "{one:?}"
+        );
+        assert!(one.uncertainty.is_none_or(|x| x > 0.0 && x.is_finite()));
+        assert!(!one.case.is_empty() && !one.source.is_empty());
+        let same = |other: &&measured::Entry| {
+            (&other.case, other.kind, other.quantity) == (&one.case, one.kind, one.quantity)
+        };
+        assert!(!all[..k].iter().any(|other| same(&other)), "{one:?}");
+    }
     true
 }
