@@ -175,7 +175,13 @@ impl SplineFit {
     pub fn new(law: &ClosedForm, closed: &ClosedFormFit, free: &[f64], runs: &[Run]) -> Self {
         let curve = law.loading();
         let top = runs.iter().map(|r| r.max_flattening).fold(0.0, f64::max);
-        let hertz_to = departed(curve).min(LATEST_DEPARTURE * top);
+        let latest = departed(curve).min(LATEST_DEPARTURE * top);
+        // up to its start a spline is elastic: one of these impacts would keep nothing of what it lost
+        let between = |r: &Run| r.max_flattening > curve.departure() && r.max_flattening <= latest;
+        let hertz_to = match runs.iter().any(between) {
+            true => curve.departure(),
+            false => latest,
+        };
         let decades = (top / hertz_to).ln() / KNOT_RATIO.ln();
         let count = (decades.ceil() as usize).clamp(KNOTS.0, KNOTS.1);
         let step = (top / hertz_to).powf(1.0 / count as f64);
