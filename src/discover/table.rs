@@ -211,10 +211,14 @@ impl Table {
             |found: String, allowed: String| Error::in_table(&self.path, name, found, &allowed);
         let Some(column) = self.figures.iter().find(|column| column.name == name) else {
             let names: Vec<&str> = self.figures.iter().map(|c| &c.name[..]).collect();
-            return Err(refuse(
-                "no such figure".to_owned(),
-                format!("it has {}", names.join(", ")),
-            ));
+            let allowed = match names.is_empty() {
+                true => format!(
+                    "must be the results.csv of a study, with one of {}",
+                    FIGURES.join(", ")
+                ),
+                false => format!("it has {}", names.join(", ")),
+            };
+            return Err(refuse("no such figure".to_owned(), allowed));
         };
         if let Some(row) = column.values.iter().position(|value| !value.is_finite()) {
             return Err(refuse(
@@ -252,7 +256,7 @@ impl Table {
     /// Number of rows.
     #[must_use]
     pub fn rows(&self) -> usize {
-        self.inputs.first().map_or(0, |column| column.values.len())
+        self.lines.len()
     }
 }
 
