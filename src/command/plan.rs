@@ -206,8 +206,8 @@ pub(super) fn pair_text(pair: &PairCase, plans: &[PairPlan]) -> String {
         let (width, height) = plan.target.extent.size();
         let _ = writeln!(
             out,
-            "V = {} m/s: second body ({}) on a grid of radius {}, depth {}; cells {} growing by {} to {}",
-            plan.impact.velocity,
+            "V = {}: second body ({}) on a grid of radius {}, depth {}; cells {} growing by {} to {}",
+            engineering(plan.impact.velocity, "m/s", 4),
             pair.target.shape.name(),
             length(width),
             length(height),
@@ -223,9 +223,14 @@ pub(super) fn pair_text(pair: &PairCase, plans: &[PairPlan]) -> String {
 #[must_use]
 pub fn text(case: &Case, plans: &[Plan]) -> String {
     let mut out = format!(
-        "Plan of {} for {} impacts, tolerance {}\n",
+        "Plan of {} for {} {}, tolerance {}\n",
         case.name,
         plans.len(),
+        if plans.len() == 1 {
+            "impact"
+        } else {
+            "impacts"
+        },
         case.tolerance
     );
     let length = |x: f64| engineering(x * case.radius, "m", 3);
@@ -233,9 +238,9 @@ pub fn text(case: &Case, plans: &[Plan]) -> String {
         let g = &p.grid;
         let _ = write!(
             out,
-            "\nV = {} m/s: expect delta* {}, contact radius {}\n  grid      degree {}, {} x {} points a cell piece; cells {} at the pole \
+            "\nV = {}: expect delta* {}, contact radius {}\n  grid      degree {}, {} x {} points a cell piece; cells {} at the pole \
              (a/{:.0}) growing by {} to {}\n  predicted {} points x {} steps = {:.1} s on one core\n",
-            p.velocity,
+            engineering(p.velocity, "m/s", 4),
             length(p.estimate.displacement * p.similarity().displacement()),
             length(p.estimate.contact_radius * p.similarity().radius()),
             g.degree,

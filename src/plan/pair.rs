@@ -287,15 +287,17 @@ fn second_body(shape: TargetShape) -> String {
 }
 
 /// How fast a body is hit whose first yield takes the speed `least`, m/s; infinite for one that never yields.
-fn over_yield(velocity: f64, least: f64) -> String {
+fn over_yield(velocity: f64, least: f64, second: TargetShape) -> String {
     if least.is_infinite() {
         return "the material has no yield strength".to_owned();
     }
     let at = engineering(least, "m/s", 3);
     if velocity < least {
-        return format!(
-            "V is below the speed of first yield, {at}: followed all the same, for a thin plate yields sooner"
-        );
+        let why = match second {
+            TargetShape::Plate { .. } => ", for a thin plate yields sooner",
+            TargetShape::Sphere { .. } | TargetShape::HalfSpace => "",
+        };
+        return format!("V is below the speed of first yield, {at}: followed all the same{why}");
     }
     let times = significant(velocity / least, 3);
     format!("V is {times} times the speed of first yield, {at}")
@@ -314,7 +316,11 @@ fn effects_of(
     let yielding = |name, material: &Material| Effect {
         name,
         on: material.flow.is_some(),
-        reason: over_yield(velocity, contact.yield_speed(material, unit) * speed),
+        reason: over_yield(
+            velocity,
+            contact.yield_speed(material, unit) * speed,
+            pair.target.shape,
+        ),
     };
     let off = |name, reason: &str| Effect {
         name,
