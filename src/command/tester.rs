@@ -137,6 +137,12 @@ impl Command for TesterArgs {
             }
             for text in &self.pressure {
                 let pressure = self.gauge(text)?;
+                if throws
+                    .iter()
+                    .any(|throw: &Throw| throw.gauge_pressure_pa == pressure)
+                {
+                    return Err(refused("--pressure", text, "must be given once"));
+                }
                 let of_fit = |fit: &Fitted| fit.half_width(&tester, &particle, pressure);
                 let spread = Spread {
                     given: &deviations,

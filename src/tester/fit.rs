@@ -32,7 +32,7 @@ pub struct Undetermined {
 pub struct Fitted {
     /// The constants.
     pub constants: Constants,
-    /// Half the width of the 95 % interval of each; of $C_1$ over itself.
+    /// Half the width of the 95 % interval of each; of $\ln C_1$ in place of $C_1$.
     pub half_widths: [f64; 4],
     /// Standard deviation of the speeds about the correlation, over the speed.
     pub scatter: f64,

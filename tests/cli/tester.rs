@@ -117,6 +117,23 @@ fn constants_are_found_from_speeds_and_used() {
         &["--measured", "m.csv", "--pressure", "10kPa", "--json"],
     ));
     assert_eq!(used["constants"], found["constants"]);
+    // the same table as a spreadsheet writes it elsewhere, with a column that means nothing here
+    let numbers = synthetic();
+    let numbers = numbers.lines().filter(|line| !line.starts_with('#'));
+    let mut other = "\u{feff}".to_owned();
+    for (row, line) in numbers.enumerate() {
+        let line = match row {
+            0 => line
+                .replace("density_kg_m3", "Density (kg/m\u{b3})")
+                .replace("diameter_um", "Diameter [\u{b5}m]")
+                .replace("gauge_pressure_kPa", "Gauge pressure (kPa)"),
+            _ => line.to_owned(),
+        };
+        other += &format!("{};{row}\r\n", line.replace(',', ";"));
+    }
+    std::fs::write(here.join("m2.csv"), other.replacen(";0\r", ";number\r", 1)).unwrap();
+    let same = impactlaw(here, &["tester", "--measured", "m2.csv", "--json"]);
+    assert_eq!(json(&same)["constants"], found["constants"]);
     let throw = &used["throws"][0];
     let speed = throw["velocity_m_s"].as_f64().unwrap();
     assert!((speed / 16.9 - 1.0).abs() < 0.05, "{speed}");
@@ -169,6 +186,8 @@ fn slips_are_refused_and_nothing_is_written() {
         (&["--pressure", "10MPa"][..], "--pressure"),
         (&["--pressure=-10kPa"], "--pressure"),
         (&["--pressure", "10"], "unit"),
+        (&["--pressure", "10kPa,100mbar"], "unit"),
+        (&["--pressure", "10kPa,0.1bar"], "--pressure"),
         (&[], "--pressure"),
         (&["--pressure", "10kPa", "--scatter", "3"], "--scatter"),
         (

@@ -44,7 +44,7 @@ pub struct Answer {
 pub struct Found {
     /// Number of measured speeds.
     pub speeds: usize,
-    /// Half the width of the 95 % interval of each; of C1 over itself.
+    /// Half the width of the 95 % interval of each; of the logarithm of C1.
     pub half_widths_95: [f64; 4],
     /// Standard deviation of the speeds about the correlation, over the speed.
     pub scatter: f64,
@@ -60,44 +60,14 @@ impl Answer {
     /// The answer as text.
     #[must_use]
     pub fn text(&self) -> String {
+        let found = self.found.as_ref();
+        let found = found.map_or_else(String::new, |found| found.text(self.constants));
+        found + &self.throws_text()
+    }
+
+    /// A line for each throw, under their heads; nothing where there is none.
+    fn throws_text(&self) -> String {
         let mut text = String::new();
-        let digits = |x: f64| significant(x, 4);
-        if let Some(found) = &self.found {
-            let _ = writeln!(
-                text,
-                "{:<24} {:>10} {:>10} {:>10} {:>10} {:>8}\n{:<24} {:>10} {:>10} {:>10} {:>10} {:>8}",
-                format!("from {} speeds", found.speeds),
-                "C1",
-                "C2",
-                "C3",
-                "C4",
-                "R2",
-                "all at once",
-                digits(self.constants[0]),
-                digits(self.constants[1]),
-                digits(self.constants[2]),
-                digits(self.constants[3]),
-                digits(found.determination),
-            );
-            let [c1, c2, c3, c4] = found.half_widths_95;
-            let _ = writeln!(
-                text,
-                "{:<24} {:>10} {:>10} {:>10} {:>10}",
-                "95 % interval, +-",
-                format!("{} %", significant(100.0 * c1, 2)),
-                significant(c2, 2),
-                significant(c3, 2),
-                significant(c4, 2),
-            );
-            let [c1, c2, c3, c4] = found.by_steps.map(digits);
-            let _ = writeln!(
-                text,
-                "{:<24} {c1:>10} {c2:>10} {c3:>10} {c4:>10} {:>8}\nspeeds scatter by {} %",
-                "step by step (thesis)",
-                digits(found.by_steps_determination),
-                significant(100.0 * found.scatter, 2),
-            );
-        }
         if self.throws.is_empty() {
             return text;
         }
@@ -126,6 +96,49 @@ impl Answer {
                     .join(";"),
             );
         }
+        text
+    }
+}
+
+impl Found {
+    /// The `constants` that were found, with their intervals, beside those step by step.
+    fn text(&self, constants: [f64; 4]) -> String {
+        let mut text = String::new();
+        let digits = |x: f64| significant(x, 4);
+        let _ = writeln!(
+            text,
+            "{:<24} {:>10} {:>10} {:>10} {:>10} {:>8}\n{:<24} {:>10} {:>10} {:>10} {:>10} {:>8}",
+            format!("from {} speeds", self.speeds),
+            "C1",
+            "C2",
+            "C3",
+            "C4",
+            "R2",
+            "all at once",
+            digits(constants[0]),
+            digits(constants[1]),
+            digits(constants[2]),
+            digits(constants[3]),
+            digits(self.determination),
+        );
+        let [c1, c2, c3, c4] = self.half_widths_95;
+        let _ = writeln!(
+            text,
+            "{:<24} {:>10} {:>10} {:>10} {:>10}",
+            "95 % interval, +-",
+            format!("factor {}", significant(c1.exp(), 3)),
+            significant(c2, 2),
+            significant(c3, 2),
+            significant(c4, 2),
+        );
+        let [c1, c2, c3, c4] = self.by_steps.map(digits);
+        let _ = writeln!(
+            text,
+            "{:<24} {c1:>10} {c2:>10} {c3:>10} {c4:>10} {:>8}\nspeeds scatter by {} %",
+            "step by step (thesis)",
+            digits(self.by_steps_determination),
+            significant(100.0 * self.scatter, 2),
+        );
         text
     }
 }
