@@ -177,6 +177,21 @@ impl PairContact {
         gaps.fold(0.0, |deepest, gap| f64::max(deepest, -gap))
     }
 
+    /// Largest depth by which a surface point, paired or not, lies inside the other body as that is now.
+    #[cfg(test)]
+    pub(super) fn deepest_of_all(&self, bodies: &[Body; 2]) -> f64 {
+        let arc = self.arc(&bodies[1]);
+        let gap = |point: &Held| {
+            let [r, z] = bodies[0].deformed(point);
+            let (_, place, way) = face(&arc, [r, z])?;
+            let (place, [across, up]) = meet(&bodies[1], place, way, r);
+            let [r2, z2] = bodies[1].deformed(&bodies[1].hold(place));
+            Some(across * (r - r2) + up * (z + z2))
+        };
+        let gaps = self.own.iter().filter_map(gap);
+        gaps.fold(0.0, |deepest, gap| f64::max(deepest, -gap))
+    }
+
     /// Take back what [`PairContact::save`] wrote.
     pub(super) fn load(&mut self, tape: &mut Tape, bodies: &[Body; 2]) -> Option<()> {
         self.pairings.load(tape)?;

@@ -100,7 +100,7 @@ fn two_spheres_keep_their_momentum_to_rounding() {
 }
 
 #[test]
-fn no_paired_point_ends_a_step_inside_the_other_body() {
+fn no_surface_point_ends_a_step_inside_the_other_body() {
     let pair = pair(TargetShape::Sphere { radius: 2e-3 });
     let plan = pair_plan(&pair, SPEED);
     let mut run = run(&pair, &plan);
@@ -110,6 +110,10 @@ fn no_paired_point_ends_a_step_inside_the_other_body() {
         // of what was done to the gap in the step, the regular share of the diagonal is left
         let way = run.dt * run.speed;
         assert!(deepest < 0.01 * way, "{deepest:e} of {way:e}");
+        // pairs are those of the last refresh; seen afresh, and with the points that were too far away to be paired
+        let all = run.contact.deepest_of_all(&run.bodies);
+        let cell = plan.target.fine;
+        assert!(all < 0.002 * cell, "{all:e} of a cell of {cell:e}");
     }
     assert!(run.impulse > 0.0);
 }
