@@ -68,21 +68,7 @@ impl Command for CompareArgs {
             false => LawFile::read(&law)?,
         };
         let impacts = read_impacts(&folder, &case)?;
-        let mut provenance = context.provenance(&case.hash);
-        let out = match &self.out {
-            Some(out) => out.clone(),
-            // what was written of the case's own law, and what the report says of it, stays
-            None if is_another(&law, &folder.join("law.toml")) => {
-                let name = law.file_stem().unwrap_or_default().to_string_lossy();
-                let out = folder.join(format!("compare-{name}"));
-                let of = law.canonicalize().unwrap_or_else(|_| law.clone());
-                let of = of.to_string_lossy();
-                check_unused(&out, &of)?;
-                provenance = format!("{provenance}{OF_LAW}{of}");
-                out
-            }
-            None => folder,
-        };
+        let (out, provenance) = self.place(&law, folder, context.provenance(&case.hash))?;
         check_writable(&out)?;
         // a law serves bodies of every radius, but of its own material only
         let of_law = Particle::of(&file.material(), case.radius);
@@ -107,6 +93,25 @@ impl Command for CompareArgs {
             false => context.say(&comparison.summary_markdown())?,
         }
         Ok(Verdict::Met)
+    }
+}
+
+impl CompareArgs {
+    /// Output folder, and what stands on top of its files.
+    fn place(&self, law: &Path, impacts: PathBuf, provenance: String) -> Result<(PathBuf, String)> {
+        if let Some(out) = &self.out {
+            return Ok((out.clone(), provenance));
+        }
+        if !is_another(law, &impacts.join("law.toml")) {
+            return Ok((impacts, provenance));
+        }
+        // what was written of the case's own law, and what the report says of it, stays
+        let name = law.file_stem().unwrap_or_default().to_string_lossy();
+        let out = impacts.join(format!("compare-{name}"));
+        let of = law.canonicalize().unwrap_or_else(|_| law.to_owned());
+        let of = of.to_string_lossy();
+        check_unused(&out, &of)?;
+        Ok((out, format!("{provenance}{OF_LAW}{of}")))
     }
 }
 
