@@ -3,6 +3,8 @@
 //! A crate of its own, because its allocator counts what each reader holds.
 
 mod flips;
+#[path = "../support/four_cases.rs"]
+mod four_cases;
 mod fuzz;
 #[path = "../laws/impacts.rs"]
 #[allow(dead_code)] // part of what it holds is for fits alone

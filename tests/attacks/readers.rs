@@ -10,6 +10,7 @@ mod results;
 mod shapes;
 mod words;
 
+use crate::four_cases::FOUR_CASES;
 use crate::mutate::Kind;
 use crate::sources::sources;
 use impactlaw::cost::Footprint;
@@ -65,7 +66,7 @@ pub const READERS: &[Reader] = &[
         seeds: || {
             vec![
                 file("cases/study-480.toml"),
-                inputs::STUDY.into(),
+                FOUR_CASES.into(),
                 inputs::MIXED_STUDY.into(),
             ]
         },

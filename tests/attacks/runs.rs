@@ -1,5 +1,6 @@
 //! Short runs of every verb that keeps what it has done, and what must be the same of two of them.
 
+use crate::four_cases::FOUR_CASES;
 use crate::program::{message, program};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -60,20 +61,6 @@ frames = 2
 film = 4
 "#;
 
-const STUDY: &str = r#"
-[particle]
-radius = ["250 um"]
-[material]
-density = ["2000 kg/m3", "8000 kg/m3"]
-young_modulus = ["100 GPa"]
-young_over_yield = [80]
-poisson_ratio = [0.35]
-[impact]
-velocities = ["20 m/s", "40 m/s"]
-[accuracy]
-tolerance = 0.2
-"#;
-
 /// A verb that keeps its work.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kept {
@@ -89,7 +76,7 @@ impl Kept {
         for (name, text) in [
             ("case.toml", CASE),
             ("scene.toml", SCENE),
-            ("study.toml", STUDY),
+            ("study.toml", FOUR_CASES),
         ] {
             std::fs::write(folder.join(name), text).unwrap();
         }

@@ -6,6 +6,8 @@ mod bed_shipped;
 mod cost;
 mod discover;
 mod discover_study;
+#[path = "../support/four_cases.rs"]
+mod four_cases;
 mod guide;
 mod help;
 mod impact;

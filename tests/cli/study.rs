@@ -1,23 +1,10 @@
 //! Studies through the real binary: the file contract, equal groups run once, finished runs kept.
 
+use crate::four_cases::FOUR_CASES;
 use crate::program::{impactlaw, message, program};
 use impactlaw::curve::{Impact, Status};
 use std::path::Path;
 use std::process::Output;
-
-const STUDY: &str = r#"
-[particle]
-radius = ["250 um"]
-[material]
-density = ["2000 kg/m3", "8000 kg/m3"]
-young_modulus = ["100 GPa"]
-young_over_yield = [80]
-poisson_ratio = [0.35]
-[impact]
-velocities = ["20 m/s", "40 m/s"]
-[accuracy]
-tolerance = 0.2
-"#;
 
 fn study(folder: &Path) -> Output {
     impactlaw(folder, &["study", "s.toml", "--out", "results"])
@@ -26,7 +13,7 @@ fn study(folder: &Path) -> Output {
 #[test]
 fn equal_groups_run_once_and_a_second_call_repeats_nothing() {
     let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("s.toml"), STUDY).unwrap();
+    std::fs::write(folder.path().join("s.toml"), FOUR_CASES).unwrap();
     let output = study(folder.path());
     assert!(output.status.success(), "{}", message(&output));
     let text = String::from_utf8(output.stdout).unwrap();
@@ -74,7 +61,7 @@ fn equal_groups_run_once_and_a_second_call_repeats_nothing() {
 
 /// One run of 8000 kg/m3 at 20 m/s in `folder`: F*, delta*, contact time, and the wall time that tells whether it was run again.
 fn figures(folder: &Path, radius: &str, density: &str, modulus: &str, speed: &str) -> [f64; 4] {
-    let text = STUDY
+    let text = FOUR_CASES
         .replace("[\"250 um\"]", &format!("[\"{radius}\"]"))
         .replace(
             "[\"2000 kg/m3\", \"8000 kg/m3\"]",
@@ -177,7 +164,7 @@ fn results(folder: &Path, out: &str) -> String {
 fn shards_that_are_merged_are_the_bytes_of_one_run_and_so_are_the_scripts_for_clusters() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
-    std::fs::write(here.join("s.toml"), STUDY).unwrap();
+    std::fs::write(here.join("s.toml"), FOUR_CASES).unwrap();
     assert!(study(here).status.success());
     let whole = results(here, "results");
     // the last shard first
@@ -221,7 +208,7 @@ fn shards_that_are_merged_are_the_bytes_of_one_run_and_so_are_the_scripts_for_cl
             .arg(&script)
             .current_dir(here)
             .env("PATH", &path)
-            .env("STUDY", "s.toml")
+            .env("FOUR_CASES", "s.toml")
             .env("OUT", "array")
             .env("SLURM_ARRAY_TASK_ID", task)
             .env("SLURM_ARRAY_TASK_COUNT", "2")
@@ -255,7 +242,7 @@ fn a_study_grows_and_runs_only_what_is_new() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
     let cube = |samples: &str| {
-        STUDY
+        FOUR_CASES
             .replace("\n[particle]", &format!("samples = {samples}\n[particle]"))
             .replace("[80]", "{ from = 40, to = 80, scale = \"log\" }")
             .replace("[\"20 m/s\", \"40 m/s\"]", "\"20 m/s\"")
@@ -305,7 +292,7 @@ fn cases_one_by_one_take_what_they_lack_from_the_file() {
 fn a_run_that_failed_is_a_row_with_its_reason() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
-    std::fs::write(here.join("s.toml"), STUDY).unwrap();
+    std::fs::write(here.join("s.toml"), FOUR_CASES).unwrap();
     assert!(study(here).status.success());
     let run = std::fs::read_dir(here.join("results/runs")).unwrap().next();
     let run = run.unwrap().unwrap().path();
@@ -327,7 +314,7 @@ fn a_run_that_failed_is_a_row_with_its_reason() {
 fn a_full_disk_is_told_and_what_was_finished_is_kept() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
-    std::fs::write(here.join("s.toml"), STUDY).unwrap();
+    std::fs::write(here.join("s.toml"), FOUR_CASES).unwrap();
     let own = program(here);
     // no file may grow past one block: writes fail as on a full disk
     let output = std::process::Command::new("bash")
@@ -354,20 +341,20 @@ fn a_full_disk_is_told_and_what_was_finished_is_kept() {
 fn bad_studies_are_refused_by_the_name_of_what_is_wrong() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
-    let ranged = STUDY.replace("[80]", "{ from = 40, to = 80 }");
+    let ranged = FOUR_CASES.replace("[80]", "{ from = 40, to = 80 }");
     let top = |line: &str| ranged.replace("\n[particle]", &format!("{line}\n[particle]"));
-    let after = |lines: &str| format!("{STUDY}{lines}");
+    let after = |lines: &str| format!("{FOUR_CASES}{lines}");
     for (text, said) in [
         (
-            STUDY.replace("[80]", "[]"),
+            FOUR_CASES.replace("[80]", "[]"),
             "`material.young_over_yield`: found []; must hold at least one value",
         ),
         (
-            STUDY.replace("[80]", "[80, 40, 80]"),
+            FOUR_CASES.replace("[80]", "[80, 40, 80]"),
             "`material.young_over_yield[2]`: found 80; must be given once",
         ),
         (
-            STUDY.replace("\"40 m/s\"", "\"20 m/s\""),
+            FOUR_CASES.replace("\"40 m/s\"", "\"20 m/s\""),
             "`impact.velocities[1]`: found \"20 m/s\"; must be given once",
         ),
         (ranged.clone(), "needs `samples`"),
@@ -378,7 +365,7 @@ fn bad_studies_are_refused_by_the_name_of_what_is_wrong() {
         ),
         (top("samples = 1000000"), "more than 100000 cases"),
         (
-            STUDY.replace("\n[particle]", "samples = 3\n[particle]"),
+            FOUR_CASES.replace("\n[particle]", "samples = 3\n[particle]"),
             "must not stand in a file without ranges",
         ),
         (
@@ -390,26 +377,26 @@ fn bad_studies_are_refused_by_the_name_of_what_is_wrong() {
             "scale",
         ),
         (
-            STUDY.replace("[80]", "80\nyield_strength = \"1 GPa\""),
+            FOUR_CASES.replace("[80]", "80\nyield_strength = \"1 GPa\""),
             "must not stand beside",
         ),
         (
-            STUDY.replace("[0.35]", "[0.35]\nhardening_over_young = -1"),
+            FOUR_CASES.replace("[0.35]", "[0.35]\nhardening_over_young = -1"),
             "`material.hardening_over_young`: found -1; must not be negative",
         ),
         (
-            STUDY.replace(
+            FOUR_CASES.replace(
                 "[\"2000 kg/m3\", \"8000 kg/m3\"]",
                 "[\"2000 kg/m3\", \"8 kg/m3\"]",
             ),
             "`material.density[1]`: found \"8 kg/m3\"; check the unit",
         ),
         (
-            STUDY.replace("density = [\"2000 kg/m3\", \"8000 kg/m3\"]\n", ""),
+            FOUR_CASES.replace("density = [\"2000 kg/m3\", \"8000 kg/m3\"]\n", ""),
             "`material.density`: found nothing; must be given",
         ),
         (
-            STUDY
+            FOUR_CASES
                 .replace("young_over_yield = [80]\n", "")
                 .replace("velocities = [\"20 m/s\", \"40 m/s\"]", "rho_V2_over_Y = 1"),
             "`impact.rho_V2_over_Y`: found 1; needs a `yield_strength`",
@@ -423,11 +410,11 @@ fn bad_studies_are_refused_by_the_name_of_what_is_wrong() {
             "`case[0].material.poisson_ratio`: found 0.7; must lie in [0, 0.5)",
         ),
         (
-            STUDY.replace("[\"250 um\"]", "3"),
+            FOUR_CASES.replace("[\"250 um\"]", "3"),
             "`particle.radius`: invalid type: integer `3`, expected a length",
         ),
         (
-            STUDY.replace("\n[accuracy]", "\nangel = 3\n[accuracy]"),
+            FOUR_CASES.replace("\n[accuracy]", "\nangel = 3\n[accuracy]"),
             "unknown field `angel`",
         ),
     ] {
@@ -444,7 +431,7 @@ fn bad_studies_are_refused_by_the_name_of_what_is_wrong() {
 #[test]
 fn refinement_runs_the_drawn_cases_again_with_finer_cells() {
     let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("s.toml"), STUDY).unwrap();
+    std::fs::write(folder.path().join("s.toml"), FOUR_CASES).unwrap();
     let arguments = ["study", "s.toml", "--out", "results", "--refine", "2"];
     let output = impactlaw(folder.path(), &arguments);
     let said = String::from_utf8_lossy(&output.stdout).into_owned();
@@ -467,7 +454,7 @@ fn a_bad_study_is_refused_before_anything_is_written() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(
         folder.path().join("s.toml"),
-        STUDY.replace("[80]", "[80, 0]"),
+        FOUR_CASES.replace("[80]", "[80, 0]"),
     )
     .unwrap();
     let output = study(folder.path());

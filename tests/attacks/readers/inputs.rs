@@ -83,20 +83,6 @@ pub(super) fn scene(bytes: &[u8], _: &Path) -> Accepted {
     true
 }
 
-pub(super) const STUDY: &str = r#"
-[particle]
-radius = ["250 um"]
-[material]
-density = ["2000 kg/m3", "8000 kg/m3"]
-young_modulus = ["100 GPa"]
-young_over_yield = [80]
-poisson_ratio = [0.35]
-[impact]
-velocities = ["20 m/s", "40 m/s"]
-[accuracy]
-tolerance = 0.2
-"#;
-
 /// Ranges, groups in place of quantities, and cases of their own.
 pub(super) const MIXED_STUDY: &str = r#"
 samples = [20, 10]
