@@ -370,6 +370,10 @@ mod tests {
                 "velocity_m_s,velocity_mm_s,restitution\n1,1,0.5\n",
                 "the column twice",
             ),
+            (
+                "velocity_m_s,restitution,restitution_sigma,Restitution_Sigma\n1,0.5,1,2\n",
+                "the column twice",
+            ),
             ("velocity_m_s\n1\n", "no figure of an impact"),
             ("velocity_m_s,restitution\n", "one measured impact"),
             (
