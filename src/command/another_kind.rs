@@ -52,7 +52,12 @@ fn no_toml(error: &Error) -> Option<Error> {
             .any(|mesh| ending.eq_ignore_ascii_case(mesh))
     };
     let path = match error {
-        Error::Syntax { path, .. } => path,
+        // what a run wrote is read without a place in its text
+        Error::Syntax {
+            path,
+            place: Some(_),
+            ..
+        } => path,
         // files of runs are called damaged by those who read them
         Error::File { path, source, .. } if source.kind() == ErrorKind::InvalidData => {
             Some(path).filter(|path| mesh(path))?

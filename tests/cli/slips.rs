@@ -260,12 +260,13 @@ fn results_of_another_study_are_not_overwritten() {
     assert_eq!(results(), before);
 }
 
+const COPPER: &str = "[particle]\nradius = \"250 um\"\n[material]\ndensity = \"8960 kg/m3\"\nyoung_modulus = \"128 GPa\"\npoisson_ratio = 0.343\nyield_strength = \"162 MPa\"\n[impact]\nvelocities = [\"20 m/s\"]\n[accuracy]\ntolerance = 0.2\n";
+
 #[test]
 fn a_comparison_with_another_law_leaves_that_of_the_own_one() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
-    let case = "[particle]\nradius = \"250 um\"\n[material]\ndensity = \"8960 kg/m3\"\nyoung_modulus = \"128 GPa\"\npoisson_ratio = 0.343\nyield_strength = \"162 MPa\"\n[impact]\nvelocities = [\"20 m/s\"]\n[accuracy]\ntolerance = 0.2\n";
-    std::fs::write(here.join("cu.toml"), case).unwrap();
+    std::fs::write(here.join("cu.toml"), COPPER).unwrap();
     said(here, &["run", "cu.toml"], 0);
     let own = || std::fs::read(here.join("out/cu/compare.csv")).unwrap();
     let before = own();
@@ -294,6 +295,39 @@ fn a_comparison_with_another_law_leaves_that_of_the_own_one() {
     said(here, &["compare", "cu.toml", "--law", "a/x.toml"], 0);
     let elsewhere = ["compare", "cu.toml", "--law", "b/x.toml", "--out", "o"];
     said(here, &elsewhere, 0);
+}
+
+#[test]
+fn a_damaged_file_of_a_run_is_told_by_what_is_wrong_in_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    std::fs::write(here.join("cu.toml"), COPPER).unwrap();
+    said(here, &["impact", "cu.toml"], 0);
+    let summary = here.join("out/cu/impact_V20/summary.json");
+    let curve = here.join("out/cu/impact_V20/curve.csv");
+    let read = |path: &Path| std::fs::read_to_string(path).unwrap();
+    // files of versions without a sum, so that it is the text that is looked at
+    let text = read(&summary);
+    let (before, _) = text.split_once(",\n  \"sha256\"").unwrap();
+    let plain = format!("{before}\n}}\n");
+    for (file, from, to, wrong) in [
+        (&summary, "\"radius_m\"", "\"radus_m\"", "radius_m"),
+        (
+            &summary,
+            "\"poisson_ratio\"",
+            "\"colour\": 1, \"poisson_ratio\"",
+            "colour",
+        ),
+        (&curve, "time_s", "time_h", "time_h"),
+    ] {
+        std::fs::write(&summary, &plain).unwrap();
+        let whole = read(file);
+        assert!(whole.contains(from), "{whole}");
+        std::fs::write(file, whole.replacen(from, to, 1)).unwrap();
+        let text = said(here, &["fit", "cu.toml"], 2);
+        assert!(text.contains(wrong) && !text.contains("TOML"), "{text}");
+        std::fs::write(file, whole).unwrap();
+    }
 }
 
 #[test]
