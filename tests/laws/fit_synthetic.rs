@@ -10,6 +10,7 @@ use impactlaw::curve::{Curve, Impact, Status};
 use impactlaw::fit::pulse::Pulse;
 use impactlaw::fit::run::Scale;
 use impactlaw::fit::{Fit, Outcome, fit, threshold};
+use impactlaw::material::YIELD_PRESSURE_RATIO;
 use impactlaw::theory::hertz::Hertz;
 use std::sync::LazyLock;
 
@@ -94,6 +95,31 @@ static FITTED: LazyLock<Fit> = LazyLock::new(fitted);
 
 fn fitted() -> Fit {
     fit(&case(MATERIAL, &SPEEDS), &impacts()).unwrap()
+}
+
+#[test]
+fn a_spline_keeps_what_an_impact_just_past_first_yield_loses() {
+    let first = MATERIAL.yield_point(RADIUS, YIELD_PRESSURE_RATIO).unwrap();
+    // it turns where the force is less than a hundredth below Hertz's, and a twentieth of the flattening stays
+    let slow = 1.25 * first.velocity;
+    let speeds = [slow, 5.0, 10.0, 20.0, 30.0];
+    let mass = ELASTIC.sphere_mass(RADIUS);
+    let impacts = speeds.map(|v| impact(&known(), v, mass));
+    let summary = &impacts[0].summary;
+    let stays = summary.residual_displacement_m / summary.max_displacement_m;
+    assert!((0.03..0.06).contains(&stays), "{stays}");
+    let found = fit(&case(MATERIAL, &speeds), &impacts).unwrap();
+    let Outcome::Yielding {
+        spline: Some(spline),
+        ..
+    } = &found.outcome
+    else {
+        panic!("the impacts yield");
+    };
+    for q in &spline.quality {
+        assert!(q.worst() < 0.005, "{q:?}");
+        assert!(q.residual_displacement.abs() < 0.005, "{q:?}");
+    }
 }
 
 #[test]
