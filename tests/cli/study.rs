@@ -208,7 +208,7 @@ fn shards_that_are_merged_are_the_bytes_of_one_run_and_so_are_the_scripts_for_cl
             .arg(&script)
             .current_dir(here)
             .env("PATH", &path)
-            .env("FOUR_CASES", "s.toml")
+            .env("STUDY", "s.toml")
             .env("OUT", "array")
             .env("SLURM_ARRAY_TASK_ID", task)
             .env("SLURM_ARRAY_TASK_COUNT", "2")
