@@ -25,8 +25,13 @@ pub trait Loading: Clone + Send + Sync + std::fmt::Debug + 'static {
     /// Work $\int_0^w f\ dw$.
     fn work(&self, w: f64) -> f64;
 
-    /// Weighted work $\int_0^w f\ g\ dw$ for a `weight` g that is 1 up to the departure and smooth past it.
-    fn weighted_work(&self, w: f64, weight: impl Fn(f64) -> f64) -> f64;
+    /// Weighted work $\int_{from}^{to} f\ g\ dw$ for a `weight` g that is 1 up to the departure and smooth past it.
+    fn weighted_work(&self, from: f64, to: f64, weight: impl Fn(f64) -> f64) -> f64;
+
+    /// Work $\int_{from}^{to} f\ dw$.
+    fn work_between(&self, from: f64, to: f64) -> f64 {
+        self.work(to) - self.work(from)
+    }
 
     /// Upper bounds of the exponent $d\ln f/d\ln w$ past the departure: `(w, bound)` means from `w` to the next
     /// entry's `w`, the last entry to infinity.
@@ -38,6 +43,13 @@ pub trait Loading: Clone + Send + Sync + std::fmt::Debug + 'static {
 #[must_use]
 pub fn hertz(w: f64) -> f64 {
     w * w.sqrt()
+}
+
+/// Its work, $\tfrac25 w^{5/2}$.
+#[inline]
+#[must_use]
+pub(crate) fn hertz_work(w: f64) -> f64 {
+    0.4 * w * hertz(w)
 }
 
 /// Closed form of the loading curve: Hertz times a factor that falls with the logarithm of the flattening.
@@ -165,16 +177,19 @@ impl Loading for SoftenedHertz {
     /// Gauss-Legendre quadrature with five nodes on panels that halve in $\sqrt w$; relative error below 1e-5 for
     /// $b \ge 1$, and less the broader the transition.
     fn work(&self, w: f64) -> f64 {
-        self.weighted_work(w, |_| 1.0)
+        self.weighted_work(0.0, w, |_| 1.0)
     }
 
-    fn weighted_work(&self, w: f64, g: impl Fn(f64) -> f64) -> f64 {
-        let hertz_work = |w: f64| 0.4 * w * hertz(w);
-        if w <= self.departure {
-            return hertz_work(w);
+    fn work_between(&self, from: f64, to: f64) -> f64 {
+        self.weighted_work(from, to, |_| 1.0)
+    }
+
+    fn weighted_work(&self, from: f64, to: f64, g: impl Fn(f64) -> f64) -> f64 {
+        if to < from {
+            return -self.weighted_work(to, from, g);
         }
-        let rest = work_between(self.departure, w, |w| self.force(w) * g(w));
-        hertz_work(self.departure) + rest
+        let elastic = hertz_work(to.min(self.departure)) - hertz_work(from.min(self.departure));
+        elastic + work_between(self.departure.max(from), to, |w| self.force(w) * g(w))
     }
 
     fn exponent_bounds(&self) -> Vec<(f64, f64)> {

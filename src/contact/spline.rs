@@ -1,7 +1,7 @@
 //! Spline form of the loading curve: a monotone cubic through few knots, cheap to evaluate.
 
 use super::admissible::Inadmissible;
-use super::loading::{GAUSS_5, Loading, hertz};
+use super::loading::{GAUSS_5, Loading, hertz, hertz_work};
 
 /// Knot of a [`SplineLoading`], in yield units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -129,7 +129,7 @@ impl SplineLoading {
             force: hertz(hertz_to),
             slope: 1.5 * hertz_to.sqrt(),
         };
-        let mut work = 0.4 * hertz_to * before.force;
+        let mut work = hertz_work(hertz_to);
         let (mut starts, mut pieces) = (vec![hertz_to], Vec::new());
         for (i, knot) in knots.iter().enumerate() {
             check_knot(i, &before, knot)?;
@@ -245,23 +245,28 @@ impl Loading for SplineLoading {
 
     fn work(&self, w: f64) -> f64 {
         if w <= self.starts[0] {
-            return 0.4 * w * hertz(w);
+            return hertz_work(w);
         }
         self.piece(w).work(w.sqrt())
     }
 
     /// Gauss-Legendre quadrature with five nodes on each piece.
-    fn weighted_work(&self, w: f64, g: impl Fn(f64) -> f64) -> f64 {
-        let hertz_to = self.starts[0].min(w);
-        let mut sum = 0.4 * hertz_to * hertz(hertz_to);
+    fn weighted_work(&self, from: f64, to: f64, g: impl Fn(f64) -> f64) -> f64 {
+        if to < from {
+            return -self.weighted_work(to, from, g);
+        }
+        let hertz_to = self.starts[0];
+        let mut sum = hertz_work(to.min(hertz_to)) - hertz_work(from.min(hertz_to));
+        let first = from.sqrt();
         for (k, piece) in self.pieces.iter().enumerate() {
-            let end = self.starts.get(k + 1).map_or(w, |next| next.min(w));
-            let half = 0.5 * (end.sqrt() - piece.start);
+            let end = self.starts.get(k + 1).map_or(to, |next| next.min(to));
+            let start = piece.start.max(first);
+            let half = 0.5 * (end.sqrt() - start);
             if half <= 0.0 {
-                break;
+                continue;
             }
             for (node, weight) in GAUSS_5 {
-                let s = piece.start + half * (1.0 + node);
+                let s = start + half * (1.0 + node);
                 sum += weight * half * 2.0 * s * piece.force(s) * g(s * s);
             }
         }

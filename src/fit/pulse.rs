@@ -71,44 +71,80 @@ const ROUNDING: f64 = 1e-8;
 /// Panels of the loading time.
 const PANELS: usize = 2;
 
-impl Pulse {
-    /// Impact of `law` with incident `energy` ($\tfrac12 m V^2$ over $F_y\delta_y$); `guess` of the largest flattening.
+/// First loading of an impact, in yield units: what the unloading has no part in.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Loaded {
+    /// Incident energy.
+    energy: f64,
+    /// Largest flattening.
+    flattening: f64,
+    /// Force there, from which the branch unloads.
+    turning: f64,
+    /// Largest force, inertia included.
+    force: f64,
+    /// Time to the turning point.
+    time: f64,
+}
+
+impl Loaded {
+    /// Loading by `law` with incident `energy` ($\tfrac12 m V^2$ over $F_y\delta_y$); `guess` of the largest flattening.
     ///
-    /// The turning point solves $\int_0^{w_m} e^\mu f\ dw = E$ ([`Added`]). The branch gives back
-    /// $E_r = f_m (w_m - w_r)/(n + 1)$, so $e^2 = E_r/E$, in the time
-    /// $\frac{w_m - w_r}{v_r} \sqrt\pi\ \Gamma(1 + 1/p)/\Gamma(1/2 + 1/p)$ with $p = n + 1$ and $v_r = \sqrt{2E_r}$.
-    /// `None` if no turning point is found.
+    /// The turning point solves $\int_0^{w_m} e^\mu f\ dw = E$ ([`Added`]); `None` if it is not found.
     pub fn of<L: Loading>(law: &Elastoplastic<L>, energy: f64, guess: f64) -> Option<Self> {
         let loading = law.loading();
         let added = Added::of(law);
-        let w_m = turning_point(loading, &added, energy, guess)?;
-        let force = loading.force(w_m);
+        let flattening = turning_point(loading, &added, energy, guess)?;
+        let turning = loading.force(flattening);
+        let press = press(loading, &added, flattening);
+        Some(Loaded {
+            energy,
+            flattening,
+            turning,
+            force: press.force.max(turning),
+            time: press.time,
+        })
+    }
+
+    /// The impact, with the unloading of `law`.
+    ///
+    /// The branch gives back $E_r = f_m (w_m - w_r)/(n + 1)$, so $e^2 = E_r/E$, in the time
+    /// $\frac{w_m - w_r}{v_r} \sqrt\pi\ \Gamma(1 + 1/p)/\Gamma(1/2 + 1/p)$ with $p = n + 1$ and $v_r = \sqrt{2E_r}$.
+    pub fn released<L: Loading>(&self, law: &Elastoplastic<L>) -> Pulse {
+        let w_m = self.flattening;
         let (rho, n) = law.branch(w_m);
         let span = w_m * (1.0 - rho);
-        let returned = force * span / (n + 1.0);
+        let returned = self.turning * span / (n + 1.0);
         let p = n + 1.0;
         let back = span / (2.0 * returned).sqrt() * PI.sqrt() * gamma(1.0 + 1.0 / p)
             / gamma(0.5 + 1.0 / p);
-        let press = press(loading, &added, w_m);
-        Some(Pulse {
+        Pulse {
             flattening: w_m,
-            force: press.force.max(force),
+            force: self.force,
             residual: rho * w_m,
-            restitution: (returned / energy).sqrt(),
-            time: press.time + back,
-        })
+            restitution: (returned / self.energy).sqrt(),
+            time: self.time + back,
+        }
     }
 }
 
+impl Pulse {
+    /// Impact of `law`: its loading ([`Loaded::of`]), then its unloading. `None` if no turning point is found.
+    pub fn of<L: Loading>(law: &Elastoplastic<L>, energy: f64, guess: f64) -> Option<Self> {
+        Some(Loaded::of(law, energy, guess)?.released(law))
+    }
+}
+
+/// Newton's method for the turning point. The work is summed from step to step, for steps soon are short.
 fn turning_point<L: Loading>(loading: &L, added: &Added, energy: f64, guess: f64) -> Option<f64> {
-    let work = |w: f64| match added.is_none() {
-        true => loading.work(w),
-        false => loading.weighted_work(w, |w| added.factor(w)),
+    let work = |from: f64, to: f64| match added.is_none() {
+        true => loading.work_between(from, to),
+        false => loading.weighted_work(from, to, |w| added.factor(w)),
     };
     let mut w = guess;
+    let mut done = work(0.0, w);
     let mut last = f64::INFINITY;
     for _ in 0..NEWTON_STEPS {
-        let step = (work(w) - energy) / (loading.force(w) * added.factor(w));
+        let step = (done - energy) / (loading.force(w) * added.factor(w));
         let next = (w - step).clamp(0.3 * w, 4.0 * w);
         if !next.is_finite() {
             return None;
@@ -117,6 +153,7 @@ fn turning_point<L: Loading>(loading: &L, added: &Added, energy: f64, guess: f64
         if last <= 1e-13 {
             return Some(next);
         }
+        done += work(w, next);
         w = next;
     }
     // sums over panels are not smooth to the last digits, between which steps may go to and fro

@@ -1,7 +1,7 @@
 //! Solvers of the fit: a simplex that finds the basin, then damped Gauss-Newton steps to its bottom.
 
 use super::form::{Form, UNLOADING};
-use super::residual::{Objective, Part};
+use super::residual::{Objective, Part, Pressed, half_squares};
 use crate::{Error, Result};
 use argmin::core::{CostFunction, Executor, State};
 use argmin::solver::neldermead::NelderMead;
@@ -28,6 +28,8 @@ struct Slice<'a, F> {
     part: Part,
     whole: &'a [f64],
     first: usize,
+    /// First loading of the runs, where the numbers that move are those of the unloading.
+    pressed: Option<Vec<Pressed>>,
 }
 
 impl<F: Form> Slice<'_, F> {
@@ -43,11 +45,19 @@ impl<F: Form> CostFunction for Slice<'_, F> {
     type Output = f64;
 
     fn cost(&self, some: &Vec<f64>) -> std::result::Result<f64, argmin::core::Error> {
+        let free = self.whole(some);
+        let cost = match &self.pressed {
+            None => self.objective.cost(&free, self.part),
+            Some(pressed) => self
+                .objective
+                .form
+                .law(&free, f64::MAX)
+                .map_or(f64::INFINITY, |law| {
+                    half_squares(&self.objective.released(&free, &law, pressed, self.part))
+                }),
+        };
         // a simplex needs comparable numbers: inadmissible is worse than anything a run can give
-        Ok(self
-            .objective
-            .cost(&self.whole(some), self.part)
-            .min(f64::MAX.sqrt()))
+        Ok(cost.min(f64::MAX.sqrt()))
     }
 }
 
@@ -113,11 +123,14 @@ fn simplex<F: Form>(
     whole: &[f64],
     range: std::ops::Range<usize>,
 ) -> Result<Vec<f64>> {
+    let law = objective.form.law(whole, f64::MAX);
+    let pressed = law.filter(|_| part == Part::Unloading);
     let slice = Slice {
         objective,
         part,
         whole,
         first: range.start,
+        pressed: pressed.and_then(|law| objective.pressed(&law, part)),
     };
     let corner = whole[range.clone()].to_vec();
     let mut corners = vec![corner.clone()];
@@ -195,13 +208,21 @@ fn jacobian<F: Form>(
     objective: &Objective<'_, F>,
     free: &[f64],
 ) -> Option<(DMatrix<f64>, DVector<f64>)> {
-    let here = objective.residuals(free, Part::All)?;
+    let law = objective.form.law(free, f64::MAX)?;
+    let pressed = objective.pressed(&law, Part::All)?;
+    let here = objective.released(free, &law, &pressed, Part::All);
     let mut matrix = DMatrix::zeros(here.len(), free.len());
     for j in 0..free.len() {
         let at = |step: f64| {
             let mut moved = free.to_vec();
             moved[j] += step;
-            objective.residuals(&moved, Part::All).map(|r| (step, r))
+            let there = if j < free.len() - UNLOADING {
+                objective.residuals(&moved, Part::All)?
+            } else {
+                let law = objective.form.law(&moved, f64::MAX)?;
+                objective.released(&moved, &law, &pressed, Part::All)
+            };
+            Some((step, there))
         };
         let (step, there) = at(DIFFERENCE).or_else(|| at(-DIFFERENCE))?;
         for i in 0..here.len() {

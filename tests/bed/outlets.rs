@@ -38,7 +38,7 @@ name = "edge"
 plane = { at = ["22 mm", "0 mm", "0 mm"], normal = [1.0, 0.0, 0.0] }
 [[stage]]
 kind = "run"
-duration = "0.35 s"
+duration = "0.25 s"
 [output]
 rows = 30
 frames = 3

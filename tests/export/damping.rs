@@ -40,27 +40,48 @@ fn elastic(form: Form) -> Portable {
     Portable::read(&path, Some(form)).unwrap()
 }
 
-/// Time step (s) and steps of an impact, of its flight to the wall and of its flight away.
-fn clock(law: &Portable, asked: f64, speed: f64) -> (f64, u32) {
-    let material = law.material();
-    let mass = 4.0 / 3.0 * PI * RADIUS.powi(3) * material.density;
-    let modulus = material.contact_modulus();
-    let time = 2.868 * (mass * mass / (RADIUS * modulus * modulus * speed)).powf(0.2);
-    let steps = steps_for(asked, 1.5);
-    (time / steps, (4.0 * steps) as u32)
+/// A grain thrown at a wall.
+struct Throw {
+    asked: f64,
+    speed: f64,
+    /// Time step, s.
+    dt: f64,
+    /// Steps of the impact, of the flight to the wall and of the flight away.
+    steps: u32,
 }
 
-fn assert_had(what: &str, law: &Portable, least: f64, had: impl Fn(f64, f64, f64, u32) -> f64) {
-    for speed in SPEEDS {
-        for asked in ASKED.map(|asked| asked.max(least)) {
-            let (dt, steps) = clock(law, asked, speed);
-            let had = had(asked, speed, dt, steps) / speed;
-            println!(
-                "{what} {:?} at {speed} m/s: asked {asked}, had {had:.5}",
-                law.form
-            );
-            assert!((had / asked - 1.0).abs() < 0.01, "{what}: {asked}: {had}");
+impl Throw {
+    fn of(law: &Portable, asked: f64, speed: f64) -> Self {
+        let material = law.material();
+        let mass = 4.0 / 3.0 * PI * RADIUS.powi(3) * material.density;
+        let modulus = material.contact_modulus();
+        let time = 2.868 * (mass * mass / (RADIUS * modulus * modulus * speed)).powf(0.2);
+        let steps = steps_for(asked, 1.5);
+        Throw {
+            asked,
+            speed,
+            dt: time / steps,
+            steps: (4.0 * steps) as u32,
         }
+    }
+}
+
+/// Throws grains at every speed for every restitution from `least` on; `had` gives the speeds they come back with.
+fn assert_had(what: &str, law: &Portable, least: f64, had: impl Fn(&[Throw]) -> Vec<f64>) {
+    let asked = ASKED.map(|asked| asked.max(least));
+    let throws: Vec<Throw> = SPEEDS
+        .iter()
+        .flat_map(|&speed| asked.map(|asked| Throw::of(law, asked, speed)))
+        .collect();
+    let had = had(&throws);
+    assert_eq!(had.len(), throws.len());
+    for (Throw { asked, speed, .. }, back) in throws.iter().zip(had) {
+        let had = back / speed;
+        println!(
+            "{what} {:?} at {speed} m/s: asked {asked}, had {had:.5}",
+            law.form
+        );
+        assert!((had / asked - 1.0).abs() < 0.01, "{what}: {asked}: {had}");
     }
 }
 
@@ -108,41 +129,57 @@ fn the_restitution_asked_for_is_had_in_c_under_both_forms() {
             .arg(&program);
         succeed(command.args(["main.c", "-lm"]));
         let mass = 4.0 / 3.0 * PI * RADIUS.powi(3) * law.material().density;
-        assert_had("C", &law, 0.0, |asked, speed, dt, steps| {
-            let words = [asked, speed, RADIUS, mass, dt, f64::from(steps)];
-            let words = words.map(|word| format!("{word:e}"));
+        let thrown = |throw: &Throw| {
+            let words = [throw.asked, throw.speed, RADIUS, mass, throw.dt];
             let mut command = Command::new(&program);
-            command.args(&words[..5]).arg(steps.to_string());
+            command.args(words.map(|word| format!("{word:e}")));
+            command.arg(throw.steps.to_string());
             succeed(&mut command).trim().parse().unwrap()
-        });
+        };
+        assert_had("C", &law, 0.0, |throws| throws.iter().map(thrown).collect());
     }
 }
 
-/// Throws grains in a code, where it is installed.
+/// Throws grains in a code, where it is installed: one after the other, in one run of it.
 fn assert_had_in(code: Code, name: &str, least: f64) {
     for form in [Form::ClosedForm, Form::Spline] {
         let Some(exported) = Exported::of(elastic(form), code) else {
             return;
         };
         let law = &exported.law;
-        assert_had(name, law, least, |asked, speed, dt, steps| {
-            let gap = format!("{:e}", 0.37 * speed * dt);
-            let [asked, speed, dt] = [asked, speed, dt].map(|value| format!("{value:e}"));
-            let (radius, density) = (RADIUS.to_string(), law.material().density.to_string());
-            let steps = steps.to_string();
-            let variables = [
-                ("E", asked.as_str()),
-                ("V", &speed),
-                ("DT", &dt),
-                ("STEPS", &steps),
-                ("R", &radius),
-                ("RHO", &density),
-                ("GAP", &gap),
+        let constants = [
+            ("R", RADIUS.to_string()),
+            ("RHO", law.material().density.to_string()),
+        ];
+        assert_had(name, law, least, |throws| {
+            let each = |of: &dyn Fn(&Throw) -> f64| {
+                let values = throws.iter().map(|throw| format!("{:e}", of(throw)));
+                values.collect::<Vec<_>>()
+            };
+            let steps = throws.iter().map(|throw| throw.steps.to_string()).collect();
+            let mut variables = vec![
+                ("E", each(&|throw| throw.asked)),
+                ("V", each(&|throw| throw.speed)),
+                ("DT", each(&|throw| throw.dt)),
+                ("STEPS", steps),
+                ("GAP", each(&|throw| 0.37 * throw.speed * throw.dt)),
             ];
-            let rows = exported.run("thrown", 1, &variables, 3);
-            let last = rows.last().unwrap();
-            assert_eq!(last[1], 0.0, "it has parted: {last:?}");
-            last[2]
+            variables.extend(
+                constants
+                    .iter()
+                    .map(|(key, value)| (*key, vec![value.clone()])),
+            );
+            let rows = exported.run_each("thrown", &variables, 3);
+            let ends = |pair: &[Vec<f64>]| pair[1][0] < pair[0][0];
+            let last = rows
+                .windows(2)
+                .filter(|pair| ends(pair))
+                .map(|pair| &pair[0]);
+            let back = last.chain(rows.last()).map(|row| {
+                assert_eq!(row[1], 0.0, "it has parted: {row:?}");
+                row[2]
+            });
+            back.collect()
         });
     }
 }

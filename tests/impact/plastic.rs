@@ -278,7 +278,8 @@ fn thread_count_does_not_change_a_bit() {
 
 #[test]
 fn restitution_falls_smoothly_with_the_speed_from_below_the_yield_speed_on() {
-    let case = case("thesis-4-4.toml");
+    let mut case = case("thesis-4-4.toml");
+    case.tolerance = 0.05;
     let limit = (case.material)
         .yield_point(case.radius, impactlaw::material::YIELD_PRESSURE_RATIO)
         .unwrap()
@@ -398,8 +399,8 @@ fn pressed_to(p: &Pressed, size: f64) -> (f64, f64) {
 
 #[test]
 fn heavy_small_cells_change_a_slow_impact_by_less_than_a_tenth_of_the_tolerance() {
-    // a third above the yield speed at E/Y 400: V/c0 is 1.6e-6, and the contact radius 0.005 R
-    let mut case = sphere(100e9, 0.25e9, 0.0, 0.35, 1e-9);
+    // a third above the yield speed at E/Y 250: V/c0 is 5e-6, and the contact radius 0.008 R
+    let mut case = sphere(100e9, 0.4e9, 0.0, 0.35, 7e-9);
     case.tolerance = 0.1;
     let heavy = plan(&case, case.velocities[0]);
     assert!(heavy.plastic && heavy.grid.scaled > 2.0 * heavy.grid.fine);

@@ -106,13 +106,32 @@ impl Exported {
         variables: &[(&str, &str)],
         columns: usize,
     ) -> Vec<Vec<f64>> {
-        let input = self.installed.input(kind);
-        put_input(&input, &self.law, &self.folder);
-        let mut command = self.command(ranks);
-        command.arg("-in").arg(input);
+        let mut command = self.input(kind, ranks);
         for (name, value) in variables {
             command.args(["-var", name, value]);
         }
         rows(&succeed(&mut command), columns)
+    }
+
+    /// The same on one processor of an input that goes through lists of values.
+    pub fn run_each(
+        &self,
+        kind: &str,
+        variables: &[(&str, Vec<String>)],
+        columns: usize,
+    ) -> Vec<Vec<f64>> {
+        let mut command = self.input(kind, 1);
+        for (name, values) in variables {
+            command.args(["-var", name]).args(values);
+        }
+        rows(&succeed(&mut command), columns)
+    }
+
+    fn input(&self, kind: &str, ranks: usize) -> Command {
+        let input = self.installed.input(kind);
+        put_input(&input, &self.law, &self.folder);
+        let mut command = self.command(ranks);
+        command.arg("-in").arg(input);
+        command
     }
 }
