@@ -8,6 +8,7 @@ use crate::{Error, Result};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
+pub mod film;
 mod tables;
 
 pub use tables::{Cylinder, Heating, Tangential, Target};
@@ -275,6 +276,12 @@ pub struct MapPoint {
     /// Von Mises stress, Pa.
     #[serde(rename = "von_mises_Pa")]
     pub von_mises_pa: f64,
+    /// Pressure, minus the mean stress, Pa (0 on the surface).
+    #[serde(rename = "pressure_Pa", default)]
+    pub pressure_pa: f64,
+    /// Temperature, K; none of a material that knows none.
+    #[serde(rename = "temperature_K", default)]
+    pub temperature_k: Option<f64>,
 }
 
 /// The particle at one moment: files `particle_compressed.csv` and `particle_rebound.csv`.

@@ -1,8 +1,9 @@
 //! Atomic writes: a file is either the old one or the whole new one, never a part. Folders that are claimed, and files that
-//! carry their sum.
+//! carry their sum. VTP, which ParaView reads.
 
 mod claim;
 mod sum;
+pub mod vtp;
 
 pub use claim::Claim;
 pub use sum::{Sum, sha256, sum_of, with_sum};

@@ -3,13 +3,15 @@
 use crate::case::Case;
 use crate::case::pair::{Asked, PairCase};
 use crate::command::{CHECKPOINT_FILE, Command, Context, Verdict, impact_folder, output_folder};
-use crate::curve::{Status, Summary};
+use crate::curve::{Status, Summary, film};
 use crate::impact::pair::{SimulatedPair, simulate_pair};
 use crate::impact::{Simulated, simulate_kept};
 use crate::plan::pair::{PairPlan, pair_plans};
 use crate::plan::plans;
 use crate::tape::Checkpoint;
 use crate::unit::{self, Time, engineering, significant};
+use crate::view::impact::write_impact_page;
+use crate::view::page::Words;
 use crate::{Error, Result};
 use clap::Args;
 use rayon::prelude::*;
@@ -28,6 +30,10 @@ pub struct ImpactArgs {
     /// Output folder (default: `out/<case name>`).
     #[arg(short, long)]
     pub out: Option<PathBuf>,
+    /// Film the impact on a rigid wall: about so many pictures in the contact time, 1 to 400, as `film/film.html` that plays them, and
+    /// `film/points.pvd` and `film/surface.pvd` for ParaView.
+    #[arg(long, value_name = "PICTURES", value_parser = clap::value_parser!(u16).range(1..=400))]
+    pub film: Option<u16>,
     /// How often a run saves a checkpoint, from which the same command resumes after an interruption.
     #[arg(long, default_value = "30 s")]
     pub checkpoint: String,
@@ -37,6 +43,7 @@ impl Command for ImpactArgs {
     const EXAMPLES: &'static [&'static str] = &[
         "impactlaw impact cases/thesis-4-4.toml",
         r#"impactlaw impact cases/thesis-4-4.toml --velocity "10 m/s" --out out/slow"#,
+        "impactlaw impact cases/thesis-4-4.toml --film 50",
         "impactlaw impact cases/steel-ball-on-plate.toml",
     ];
 
@@ -55,7 +62,8 @@ impl Command for ImpactArgs {
         context
             .log
             .note("plan", &super::plan::text(&case, &plans(&case)?));
-        let all = impacts(&case, &out, interval, context)?;
+        let pictures = self.film.map_or(0, usize::from);
+        let all = impacts(&case, &out, (interval, pictures), context)?;
         let summaries = all.iter().map(|done| &done.impact.summary);
         context.say(&findings(summaries, &out))?;
         all.iter().try_for_each(check)?;
@@ -66,6 +74,13 @@ impl Command for ImpactArgs {
 impl ImpactArgs {
     /// The same for two deformable bodies.
     fn of_pair(&self, pair: &PairCase, interval: Duration, context: &Context) -> Result<Verdict> {
+        if let Some(film) = self.film {
+            return Err(Error::Argument {
+                argument: "--film".to_owned(),
+                found: film.to_string(),
+                allowed: "is for an impact on a rigid wall: two deformable bodies are not filmed".to_owned(),
+            });
+        }
         let plans = pair_plans(pair)?;
         let case = &pair.particle;
         let out = output_folder(self.out.as_deref(), &case.name)?;
@@ -123,18 +138,19 @@ pub fn interval(text: &str) -> Result<Duration> {
     })
 }
 
-/// Simulate every speed of `case`, longest first, and write each as soon as it is there; returned in order of speed, those
-/// that did not end among them.
+/// Simulate every speed of `case`, longest first, and write each as soon as it is there, with so many pictures a contact time;
+/// returned in order of speed, those that did not end among them.
 ///
 /// # Errors
 /// Those of planning and of writing the results.
 pub fn impacts(
     case: &Case,
     out: &Path,
-    interval: Duration,
+    (interval, pictures): (Duration, usize),
     context: &Context,
 ) -> Result<Vec<Simulated>> {
     let mut plans = plans(case)?;
+    plans.iter_mut().for_each(|plan| plan.pictures = pictures);
     plans.sort_by(|a, b| b.seconds.total_cmp(&a.seconds));
     let bar = context.progress(plans.len() as u64, "impacts");
     let provenance = context.provenance(&case.hash);
@@ -151,6 +167,7 @@ pub fn impacts(
                 .write(&map("particle_compressed.csv"), &provenance)?;
             done.rebound
                 .write(&map("particle_rebound.csv"), &provenance)?;
+            write_film(case, &done, &folder.join("film"))?;
             bar.inc(1);
             let summary = &done.impact.summary;
             for warning in &summary.warnings {
@@ -173,6 +190,30 @@ pub fn impacts(
         speed(a).total_cmp(&speed(b))
     });
     Ok(all)
+}
+
+/// Writes the film of an impact and the page that plays it, in place of an earlier one; without pictures none.
+fn write_film(case: &Case, done: &Simulated, folder: &Path) -> Result<()> {
+    done.film.write(folder)?;
+    if done.film.pictures.is_empty() {
+        return Ok(());
+    }
+    let summary = &done.impact.summary;
+    let title = format!("{} at {}", case.name, engineering(summary.velocity_m_s, "m/s", 4));
+    let figures = format!(
+        "e {}, F* {}, δ* {}, contact time {}; {} material points",
+        significant(summary.restitution, 4),
+        engineering(summary.max_force_n, "N", 4),
+        engineering(summary.max_displacement_m, "m", 4),
+        engineering(summary.contact_time_s, "s", 4),
+        summary.points
+    );
+    let words = Words {
+        title: &title,
+        summary: &figures,
+        warnings: &summary.warnings,
+    };
+    write_impact_page(&folder.join(film::PAGE), words, &done.film, &done.impact.curve)
 }
 
 /// Maps of an impact of two bodies.

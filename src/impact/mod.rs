@@ -17,6 +17,7 @@ pub mod wall;
 
 use self::choice::{Job, Plastic};
 use self::run::record::Record;
+use crate::curve::film::Film;
 use crate::curve::{Impact, ParticleMap, Status};
 use crate::material::stress::{Elastic, Moduli};
 use crate::material::{Material, ReferenceUnits};
@@ -33,6 +34,8 @@ pub struct Simulated {
     pub compressed: ParticleMap,
     /// The particle after its rebound.
     pub rebound: ParticleMap,
+    /// The particle on the way, if the plan has pictures.
+    pub film: Film,
     /// Memory of points and nodes, bytes.
     pub memory_bytes: usize,
     /// Energy lost in transfers between points and grid over the incident kinetic energy; 0 where there are none.
@@ -137,6 +140,7 @@ fn simulated(
         }
     }
     let mut seconds = started.elapsed().as_secs_f64();
+    let units = ReferenceUnits::of(material, radius);
     let finished = |record: Record| {
         let wall = record.seconds_before + std::mem::take(&mut seconds);
         let impact = record.impact(material, radius, plan, wall);
@@ -144,6 +148,11 @@ fn simulated(
             impact,
             compressed: record.compressed.map(material, radius),
             rebound: record.rebound.map(material, radius),
+            film: Film {
+                pictures: (record.film.iter())
+                    .map(|(time, picture)| (time * units.time(), picture.map(material, radius)))
+                    .collect(),
+            },
             memory_bytes: record.memory_bytes,
             transfer_loss: record.transfer_loss,
         }

@@ -84,6 +84,8 @@ pub struct Plan {
     pub scheme: Scheme,
     /// Impacts of the same particle, one after the other.
     pub impacts: usize,
+    /// Pictures of the particle in a contact time; 0: none are taken.
+    pub pictures: usize,
     /// Time after loss of contact over which the residual vibration is averaged, R/c0.
     pub ring_time: f64,
     /// Time at which an impact without rebound is given up, R/c0.
@@ -116,6 +118,7 @@ impl Plan {
             grid,
             scheme: Scheme::default(),
             impacts: 1,
+            pictures: 0,
             ring_time,
             longest_time: 6.0 * estimate.contact_time + 4.0 * ring_time,
             points: 0,

@@ -23,7 +23,7 @@ tolerance = 0.02
 fn impact(folder: &Path) -> Command {
     let mut command = program(folder);
     command.args(["-v", "impact", "c.toml", "--out", "results"]);
-    command.args(["--checkpoint", "50 ms"]);
+    command.args(["--checkpoint", "50 ms", "--film", "6"]);
     command
 }
 
@@ -45,6 +45,8 @@ fn a_killed_impact_goes_on_where_it_was_and_ends_with_the_same_bits() {
         "curve.csv",
         "particle_compressed.csv",
         "particle_rebound.csv",
+        "film/points.pvd",
+        "film/points_0004.vtp",
     ] {
         let body = |folder: &Path| body(&results(folder).join(name));
         assert_eq!(body(killed.path()), body(whole.path()), "{name}");

@@ -1,7 +1,7 @@
 //! Elastic impacts against closed forms: restitution, the Hertz limit, convergence in cell size and time step.
 
 use impactlaw::case::Case;
-use impactlaw::curve::{Impact, Status};
+use impactlaw::curve::{Impact, MapPoint, Part, Status};
 use impactlaw::impact::simulate;
 use impactlaw::material::Material;
 use impactlaw::plan::{Plan, plan};
@@ -53,6 +53,30 @@ fn hertz(velocity: f64) -> (f64, f64) {
 
 fn change(a: f64, b: f64) -> f64 {
     (a / b - 1.0).abs()
+}
+
+#[test]
+fn the_pressure_below_an_elastic_contact_is_hertz_s() {
+    let plan = planned(0.01 * bar_speed(), 0.01);
+    let done = simulate(&elastic(), RADIUS, &plan);
+    let force = done.impact.summary.max_force_n;
+    let radius = (0.75 * force * RADIUS / elastic().contact_modulus()).cbrt();
+    let peak = 1.5 * force / (std::f64::consts::PI * radius * radius);
+    // on the axis, from Johnson 1985, equation 3.45: the three stresses add up to -2 (1 + nu) p_0 (1 - z/a atan(a/z))
+    let near =
+        |p: &&MapPoint| p.part == Part::Inside && p.r_m < 0.15 * radius && p.z_m < 2.0 * radius;
+    let below: Vec<&MapPoint> = done.compressed.points.iter().filter(near).collect();
+    assert!(below.len() > 20, "{}", below.len());
+    for point in below {
+        let depth = point.z_m / radius;
+        let hertz = 2.0 / 3.0 * 1.35 * peak * (1.0 - depth * (1.0 / depth).atan());
+        assert!(
+            (point.pressure_pa - hertz).abs() < 0.05 * peak,
+            "{} Pa, Hertz {hertz} at {depth} a",
+            point.pressure_pa
+        );
+        assert_eq!(point.temperature_k, None);
+    }
 }
 
 #[test]

@@ -6,7 +6,6 @@ pub mod dump;
 pub(crate) mod oedometer;
 pub(crate) mod paraview;
 pub mod summary;
-pub(crate) mod vtp;
 
 use self::bodies::{BodyRow, body_rows};
 use self::contacts::Written;

@@ -1,9 +1,9 @@
 //! Frames of a run for ParaView: grains, contacts and bodies, each a series of VTP files with its times.
 
-use super::vtp::{Column, PolyData, collection};
 use crate::Result;
 use crate::dem::dynamics::any::AnyBed;
 use crate::dem::dynamics::contact::{ContactRow, Other};
+use crate::files::vtp::{Column, PolyData, collection};
 use crate::files::write_atomic;
 use crate::tape::keep_fields;
 use crate::view::outline::Outline;
@@ -61,7 +61,7 @@ fn grains(bed: &dyn AnyBed) -> PolyData {
     let grains = bed.grains();
     let per = |value: &dyn Fn(usize) -> f64| (0..grains.len()).map(value).collect();
     PolyData {
-        points: grains.spheres.iter().map(|s| s.centre).collect(),
+        points: grains.spheres.iter().map(|s| s.centre.to_array()).collect(),
         point_data: vec![
             Column::scalars(
                 "radius_m",
@@ -70,8 +70,8 @@ fn grains(bed: &dyn AnyBed) -> PolyData {
             Column::scalars("id", grains.ids.iter().map(|&id| f64::from(id)).collect()),
             Column::scalars("material", per(&|grain| f64::from(grains.material(grain)))),
             Column::scalars("group", per(&|grain| f64::from(grains.groups[grain]))),
-            Column::vectors("velocity_m_s", grains.motions.iter().map(|m| m.velocity)),
-            Column::vectors("spin_rad_s", grains.spins.iter().map(|s| s.rate)),
+            Column::vectors("velocity_m_s", grains.motions.iter().map(|m| m.velocity.to_array())),
+            Column::vectors("spin_rad_s", grains.spins.iter().map(|s| s.rate.to_array())),
             Column::scalars("force_sum_N", bed.squeeze()),
             Column::scalars("plastic_J", bed.plastic_by_grain()),
         ],
@@ -94,14 +94,14 @@ fn contacts(rows: &[ContactRow]) -> PolyData {
         Column::scalars("force_N", numbers(|row| row.force.length())),
         Column::scalars("normal_force_N", numbers(ContactRow::normal_force)),
         Column::scalars("tangential_force_N", numbers(ContactRow::tangential_force)),
-        Column::vectors("force_vector_N", rows.iter().map(|row| row.force)),
+        Column::vectors("force_vector_N", rows.iter().map(|row| row.force.to_array())),
         Column::scalars("overlap_m", numbers(|row| row.overlap)),
         Column::scalars("plastic_J", numbers(|row| row.plastic)),
     ];
     let largest: Option<Vec<f64>> = rows.iter().map(|row| row.largest_overlap).collect();
     cell_data.extend(largest.map(|values| Column::scalars("largest_overlap_m", values)));
     PolyData {
-        points: rows.iter().flat_map(|row| row.ends).collect(),
+        points: rows.iter().flat_map(|row| row.ends.map(|end| end.to_array())).collect(),
         lines: (0..rows.len() as u32).map(|i| [2 * i, 2 * i + 1]).collect(),
         cell_data,
         ..PolyData::default()
@@ -119,14 +119,14 @@ fn bodies(bed: &dyn AnyBed) -> PolyData {
         }
         let outline = Outline::of(&*surface.shape, 1.0);
         let first = data.points.len() as u32;
-        let place = |v| surface.pose.transform_point(v) * machine.unit;
+        let place = |v| (surface.pose.transform_point(v) * machine.unit).to_array();
         data.points.extend(outline.vertices.into_iter().map(place));
         let load = bed.load_on(number);
         for triangle in outline.triangles {
             data.triangles.push(triangle.map(|corner| corner + first));
             index.push(number as f64);
-            force.push(load.force);
-            torque.push(load.torque);
+            force.push(load.force.to_array());
+            torque.push(load.torque.to_array());
         }
     }
     data.cell_data = vec![

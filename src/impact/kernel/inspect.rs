@@ -20,6 +20,10 @@ pub struct PointView {
     pub plastic_strain: f64,
     /// Von Mises (Cauchy) stress.
     pub von_mises: f64,
+    /// Pressure, minus the mean (Cauchy) stress; of viscous stresses nothing.
+    pub pressure: f64,
+    /// Temperature, K, of matter that knows one.
+    pub temperature: Option<f64>,
 }
 
 /// How warm points are.
@@ -118,9 +122,14 @@ impl<S: Space, const N: usize> Points<S, N> {
     /// Every material point at displacements `u`, in a fixed order.
     pub fn view(&self, u: &[S::Vector]) -> Vec<PointView> {
         let mut all = Vec::with_capacity(self.cold.len());
+        let own_bulk = 0.5 * self.moduli.bulk * self.own_volume;
         for cell in &self.cells {
             let mut cold = self.cold[cell.cold as usize..].iter();
-            for block in cell.first as usize..cell.last as usize {
+            let blocks = cell.first as usize..cell.last as usize;
+            let volume = |block| S::determinant(&self.gradient(cell, block, u)) * self.volumes[block];
+            let volume: f64 = blocks.clone().map(|block| volume(block).sum()).sum();
+            let mean = self.moduli.volumetric_stress(volume / cell.volume) * (1.0 - self.own_volume);
+            for block in blocks {
                 let f = self.gradient(cell, block, u);
                 let j = S::determinant(&f);
                 let kinematics = Kinematics {
@@ -130,6 +139,9 @@ impl<S: Space, const N: usize> Points<S, N> {
                 };
                 let trial = self.matter.trial(&kinematics, block);
                 let mises = (trial.deviator.squared_norm() * 1.5).sqrt() * j.recip();
+                let own = (j * j - Lanes::splat(1.0)) * j.recip() * own_bulk;
+                let pressure = (Lanes::splat(mean) + own) * -cell.strength;
+                let temperature = self.matter.temperature(block).map(|t| t.array());
                 let strain = self.matter.plastic_strain(block);
                 for lane in 0..WIDTH {
                     if self.volumes[block].array()[lane] > 0.0
@@ -141,6 +153,8 @@ impl<S: Space, const N: usize> Points<S, N> {
                             volume: point.volume,
                             plastic_strain: strain.array()[lane],
                             von_mises: mises.array()[lane],
+                            pressure: pressure.array()[lane],
+                            temperature: temperature.map(|t| t[lane]),
                         });
                     }
                 }

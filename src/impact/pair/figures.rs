@@ -75,6 +75,7 @@ impl PairRun<'_> {
             frames: std::mem::take(&mut self.frames),
             compressed,
             rebound: particle,
+            film: Vec::new(),
             status,
         };
         if record.status == Status::Ok

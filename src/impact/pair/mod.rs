@@ -378,6 +378,8 @@ impl<'a> PairRun<'a> {
                     place: [across, signs[b] * up, size],
                     plastic_strain: p.plastic_strain,
                     von_mises: p.von_mises,
+                    pressure: p.pressure,
+                    temperature: p.temperature.unwrap_or_default(),
                 })
             };
             Snapshot {

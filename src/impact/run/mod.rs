@@ -56,7 +56,7 @@ keep_fields!(
     impl [S: Space, W: Wall<S>, T: Remap<S::Vector>, const N: usize]
     Run<'_, S, W, T, N>:
     model, transfer, transferred, u, v, limit, local, dt, time, step, stepped, next_refresh, next_output, impulse, tangential,
-    contact_work, plastic, shock, contact_radius, contact_end, frames, closure, compressed, erosion, start;
+    contact_work, plastic, shock, contact_radius, contact_end, frames, closure, compressed, film, erosion, start;
     rebuilt plan, speed, old, force, blocks, mass, failure, excess,
 );
 
@@ -99,6 +99,7 @@ where
     frames: Vec<Frame>,
     closure: f64,
     compressed: Option<Snapshot>,
+    film: Vec<(f64, Snapshot)>,
     failure: Option<String>,
     erosion: Erosion,
     start: Start,
@@ -149,6 +150,7 @@ where
             frames: Vec::new(),
             closure: 0.0,
             compressed: None,
+            film: Vec::new(),
             failure: None,
             erosion: Erosion::new(plan.grid.remedies.least_step),
             start: Start::default(),
@@ -157,6 +159,7 @@ where
         };
         run.excess = run.excess_inertia();
         run.frames.push(run.first_frame());
+        run.take_first_picture();
         run
     }
 
@@ -234,6 +237,7 @@ where
             ..self.first_frame()
         };
         self.frames = vec![first];
+        self.take_first_picture();
         (self.time, self.step, self.stepped, self.next_refresh) = (0.0, 0, 0, 0);
         (self.impulse, self.tangential, self.contact_work) = (0.0, 0.0, 0.0);
         (self.plastic, self.shock) = (0.0, 0.0);

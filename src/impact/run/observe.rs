@@ -5,7 +5,7 @@ use super::record::{Frame, Record, SectionView, Sliding, Snapshot};
 use super::transfer::Remap;
 use crate::curve::Status;
 use crate::impact::kernel::PointView;
-use crate::impact::run::{Run, UNSTABLE};
+use crate::impact::run::{OUTPUTS, Run, UNSTABLE};
 use crate::impact::wall::meridian::Wall;
 use crate::plan::Geometry;
 use crate::scheme::Scheme;
@@ -62,10 +62,25 @@ where
             height: self.height(north, south),
         };
         self.contact_radius = 0.0;
+        if self.plan.pictures > 0 && self.frames.len().is_multiple_of(self.outputs_a_picture()) {
+            self.film.push((self.time, self.snapshot()));
+        }
         self.frames.push(frame);
         if self.compressed.is_none() && self.mean(&self.v, S::NORMAL) >= 0.0 {
             self.compressed = Some(self.snapshot());
         }
+    }
+
+    /// The particle as it comes, if there is to be a film.
+    pub(super) fn take_first_picture(&mut self) {
+        if self.plan.pictures > 0 {
+            self.film.push((0.0, self.snapshot()));
+        }
+    }
+
+    /// Outputs from picture to picture.
+    fn outputs_a_picture(&self) -> usize {
+        (OUTPUTS / self.plan.pictures as f64).max(1.0) as usize
     }
 
     /// Whether the cell that carries a marker has not been taken out.
@@ -139,6 +154,8 @@ where
                 place,
                 plastic_strain: p.plastic_strain,
                 von_mises: p.von_mises,
+                pressure: p.pressure,
+                temperature: p.temperature.unwrap_or_default(),
             })
         };
         Snapshot {
@@ -200,6 +217,7 @@ where
             frames: std::mem::take(&mut self.frames),
             compressed: self.compressed.take().unwrap_or_default(),
             rebound,
+            film: std::mem::take(&mut self.film),
             status,
         };
         // other schemes are run to see what they do

@@ -45,6 +45,10 @@ pub struct SectionView {
     pub plastic_strain: f64,
     /// Von Mises (Cauchy) stress.
     pub von_mises: f64,
+    /// Pressure, minus the mean (Cauchy) stress.
+    pub pressure: f64,
+    /// Temperature, K; 0 of matter that knows none.
+    pub temperature: f64,
 }
 
 /// What an oblique impact, or one with friction, does along the wall; run units.
@@ -94,6 +98,8 @@ impl Snapshot {
             size_m: p.place[2] * radius,
             equivalent_plastic_strain: p.plastic_strain,
             von_mises_pa: p.von_mises * material.young_modulus,
+            pressure_pa: p.pressure * material.young_modulus,
+            temperature_k: (p.temperature > 0.0).then_some(p.temperature),
         });
         let surface = self.outline.iter().map(|&(r, z)| MapPoint {
             part: Part::Surface,
@@ -102,6 +108,8 @@ impl Snapshot {
             size_m: 0.0,
             equivalent_plastic_strain: 0.0,
             von_mises_pa: 0.0,
+            pressure_pa: 0.0,
+            temperature_k: None,
         });
         ParticleMap {
             points: inside.chain(surface).collect(),
@@ -110,7 +118,7 @@ impl Snapshot {
 }
 
 keep_fields!(Frame: time, displacement, centre_displacement, impulse, tangential, contact_radius, kinetic, elastic, plastic, height);
-keep_fields!(SectionView: place, plastic_strain, von_mises);
+keep_fields!(SectionView: place, plastic_strain, von_mises, pressure, temperature);
 keep_fields!(Snapshot: points, outline);
 
 /// All that a finished (or stopped) run knows.
@@ -158,6 +166,8 @@ pub struct Record {
     pub compressed: Snapshot,
     /// The particle at the end.
     pub rebound: Snapshot,
+    /// Pictures on the way, each with its time, as many as were asked for.
+    pub film: Vec<(f64, Snapshot)>,
 }
 
 /// Share of the contact time over which F is averaged before its maximum is taken.

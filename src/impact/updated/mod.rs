@@ -360,6 +360,8 @@ impl<'a, M: Constitutive<Axisymmetric>, const P: usize, const N: usize> Updated<
                 place: [p.position[0], p.position[1], size],
                 plastic_strain: M::plastic_strain(&p.state).array()[0],
                 von_mises: 1.5f64.sqrt() * p.shear_norm / j,
+                pressure: -self.material.moduli().volumetric_stress(j),
+                temperature: self.material.temperature(&p.state).map_or(0.0, |t| t.array()[0]),
             }
         };
         let outline = |&c: &usize| {
@@ -419,6 +421,7 @@ impl<'a, M: Constitutive<Axisymmetric>, const P: usize, const N: usize> Updated<
             memory_bytes: size * self.movers.len() + self.mass.len() * 9 * 8,
             status,
             rebound: self.snapshot(),
+            film: Vec::new(),
             compressed,
             frames,
         }

@@ -204,14 +204,15 @@ pub fn write_page(
         bodies: bodies(bed),
     };
     let json = serde_json::to_string(&data).map_err(|e| Error::file("write", path)(e.into()))?;
-    // "</script" would end the script that holds the data, and "<!--<script" would keep it open for ever
-    let json = json.replace('<', "\\u003c");
-    write_atomic(path, html(words, &json).as_bytes())
+    write_atomic(path, filled(HTML, SCRIPT, words, &json).as_bytes())
 }
 
-fn html(words: Words, json: &str) -> String {
-    let mut html = String::with_capacity(HTML.len() + STYLE.len() + SCRIPT.len() + json.len());
-    let mut rest = HTML;
+/// A page: its frame with style, `script`, words and data in their places.
+pub(super) fn filled(frame: &str, script: &str, words: Words, json: &str) -> String {
+    // "</script" would end the script that holds the data, and "<!--<script" would keep it open for ever
+    let json = json.replace('<', "\\u003c");
+    let mut html = String::with_capacity(frame.len() + STYLE.len() + script.len() + json.len());
+    let mut rest = frame;
     while let Some((before, after)) = rest.split_once("{{") {
         html.push_str(before);
         let (name, after) = after.split_once("}}").unwrap_or((after, ""));
@@ -220,8 +221,8 @@ fn html(words: Words, json: &str) -> String {
             "summary" => html.push_str(&escape(words.summary)),
             "warnings" => html.push_str(&listed(words.warnings)),
             "style" => html.push_str(STYLE),
-            "script" => html.push_str(SCRIPT),
-            _ => html.push_str(json),
+            "script" => html.push_str(script),
+            _ => html.push_str(&json),
         }
         rest = after;
     }
@@ -253,7 +254,7 @@ fn escape(text: &str) -> String {
         .replace('"', "&quot;")
 }
 
-fn encode<const N: usize>(numbers: impl Iterator<Item = [u8; N]>) -> String {
+pub(super) fn encode<const N: usize>(numbers: impl Iterator<Item = [u8; N]>) -> String {
     STANDARD.encode(numbers.flatten().collect::<Vec<u8>>())
 }
 
@@ -426,8 +427,9 @@ mod tests {
             warnings: &[],
             ..words
         };
-        assert!(!html(quiet, "{}").contains("<details"));
-        let html = html(words, "{}");
+        let html = |words| filled(HTML, SCRIPT, words, "{}");
+        assert!(!html(quiet).contains("<details"));
+        let html = html(words);
         assert!(html.contains("<summary>1 warning</summary><ul><li>e &lt; f</li></ul>"));
         assert!(html.contains("<h1>a &lt; b</h1>") && html.contains("&quot;c&quot; &amp; d"));
         assert!(!html.contains("{{") && html.contains(">{}</script>"));

@@ -86,8 +86,8 @@ pub(super) fn run_of_a_study(bytes: &[u8], folder: &Path) -> Accepted {
     found.is_some()
 }
 
-pub(super) const MAP: &str = "# seed\npart,r_m,z_m,size_m,equivalent_plastic_strain,von_mises_Pa\n\
-                   inside,1e-6,2e-6,1e-7,0.1,1e9\nsurface,0.0,2.5e-4,0.0,0.0,-0.0\n";
+pub(super) const MAP: &str = "# seed\npart,r_m,z_m,size_m,equivalent_plastic_strain,von_mises_Pa,pressure_Pa,temperature_K\n\
+                   inside,1e-6,2e-6,1e-7,0.1,1e9,-1e8,\nsurface,0.0,2.5e-4,0.0,0.0,-0.0,0,300\n";
 
 pub(super) fn map(bytes: &[u8], folder: &Path) -> Accepted {
     let path = folder.join("map.csv");

@@ -2,14 +2,13 @@
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use parry3d::math::Vector;
 use std::fmt::Write;
 
 /// Points with values, and the lines or polygons between them.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PolyData {
     /// Places, m.
-    pub points: Vec<Vector>,
+    pub points: Vec<[f64; 3]>,
     /// Corners of each line.
     pub lines: Vec<[u32; 2]>,
     /// Corners of each triangle.
@@ -44,12 +43,11 @@ impl Column {
 
     /// One vector a point or cell.
     #[must_use]
-    pub fn vectors(name: &'static str, values: impl IntoIterator<Item = Vector>) -> Self {
-        let values = values.into_iter().flat_map(|v| v.to_array()).collect();
+    pub fn vectors(name: &'static str, values: impl IntoIterator<Item = [f64; 3]>) -> Self {
         Self {
             name,
             components: 3,
-            values,
+            values: values.into_iter().flatten().collect(),
         }
     }
 }
@@ -142,7 +140,7 @@ mod tests {
     #[test]
     fn another_reader_finds_the_points_and_lines_written() {
         let data = PolyData {
-            points: vec![Vector::new(1.0, 2.0, 3.0), Vector::new(-1.0, 0.5, 0.0)],
+            points: vec![[1.0, 2.0, 3.0], [-1.0, 0.5, 0.0]],
             lines: vec![[0, 1]],
             cell_data: vec![Column::scalars("force_N", vec![2.5])],
             ..PolyData::default()
