@@ -78,7 +78,8 @@ impl ImpactArgs {
             return Err(Error::Argument {
                 argument: "--film".to_owned(),
                 found: film.to_string(),
-                allowed: "is for an impact on a rigid wall: two deformable bodies are not filmed".to_owned(),
+                allowed: "is for an impact on a rigid wall: two deformable bodies are not filmed"
+                    .to_owned(),
             });
         }
         let plans = pair_plans(pair)?;
@@ -199,7 +200,11 @@ fn write_film(case: &Case, done: &Simulated, folder: &Path) -> Result<()> {
         return Ok(());
     }
     let summary = &done.impact.summary;
-    let title = format!("{} at {}", case.name, engineering(summary.velocity_m_s, "m/s", 4));
+    let title = format!(
+        "{} at {}",
+        case.name,
+        engineering(summary.velocity_m_s, "m/s", 4)
+    );
     let figures = format!(
         "e {}, F* {}, δ* {}, contact time {}; {} material points",
         significant(summary.restitution, 4),
@@ -213,7 +218,12 @@ fn write_film(case: &Case, done: &Simulated, folder: &Path) -> Result<()> {
         summary: &figures,
         warnings: &summary.warnings,
     };
-    write_impact_page(&folder.join(film::PAGE), words, &done.film, &done.impact.curve)
+    write_impact_page(
+        &folder.join(film::PAGE),
+        words,
+        &done.film,
+        &done.impact.curve,
+    )
 }
 
 /// Maps of an impact of two bodies.

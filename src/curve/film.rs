@@ -59,7 +59,8 @@ fn clear(folder: &Path) -> Result<()> {
     };
     for path in entries.flatten().map(|entry| entry.path()) {
         let file = path.file_name().and_then(|file| file.to_str());
-        let ours = |file: &str| file == PAGE || SERIES.iter().any(|(name, _)| of_series(file, name));
+        let ours =
+            |file: &str| file == PAGE || SERIES.iter().any(|(name, _)| of_series(file, name));
         if file.is_some_and(ours) {
             std::fs::remove_file(&path).map_err(Error::file("remove", &path))?;
         }

@@ -70,7 +70,10 @@ fn grains(bed: &dyn AnyBed) -> PolyData {
             Column::scalars("id", grains.ids.iter().map(|&id| f64::from(id)).collect()),
             Column::scalars("material", per(&|grain| f64::from(grains.material(grain)))),
             Column::scalars("group", per(&|grain| f64::from(grains.groups[grain]))),
-            Column::vectors("velocity_m_s", grains.motions.iter().map(|m| m.velocity.to_array())),
+            Column::vectors(
+                "velocity_m_s",
+                grains.motions.iter().map(|m| m.velocity.to_array()),
+            ),
             Column::vectors("spin_rad_s", grains.spins.iter().map(|s| s.rate.to_array())),
             Column::scalars("force_sum_N", bed.squeeze()),
             Column::scalars("plastic_J", bed.plastic_by_grain()),
@@ -94,14 +97,20 @@ fn contacts(rows: &[ContactRow]) -> PolyData {
         Column::scalars("force_N", numbers(|row| row.force.length())),
         Column::scalars("normal_force_N", numbers(ContactRow::normal_force)),
         Column::scalars("tangential_force_N", numbers(ContactRow::tangential_force)),
-        Column::vectors("force_vector_N", rows.iter().map(|row| row.force.to_array())),
+        Column::vectors(
+            "force_vector_N",
+            rows.iter().map(|row| row.force.to_array()),
+        ),
         Column::scalars("overlap_m", numbers(|row| row.overlap)),
         Column::scalars("plastic_J", numbers(|row| row.plastic)),
     ];
     let largest: Option<Vec<f64>> = rows.iter().map(|row| row.largest_overlap).collect();
     cell_data.extend(largest.map(|values| Column::scalars("largest_overlap_m", values)));
     PolyData {
-        points: rows.iter().flat_map(|row| row.ends.map(|end| end.to_array())).collect(),
+        points: rows
+            .iter()
+            .flat_map(|row| row.ends.map(|end| end.to_array()))
+            .collect(),
         lines: (0..rows.len() as u32).map(|i| [2 * i, 2 * i + 1]).collect(),
         cell_data,
         ..PolyData::default()

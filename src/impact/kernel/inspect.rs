@@ -126,9 +126,11 @@ impl<S: Space, const N: usize> Points<S, N> {
         for cell in &self.cells {
             let mut cold = self.cold[cell.cold as usize..].iter();
             let blocks = cell.first as usize..cell.last as usize;
-            let volume = |block| S::determinant(&self.gradient(cell, block, u)) * self.volumes[block];
+            let volume =
+                |block| S::determinant(&self.gradient(cell, block, u)) * self.volumes[block];
             let volume: f64 = blocks.clone().map(|block| volume(block).sum()).sum();
-            let mean = self.moduli.volumetric_stress(volume / cell.volume) * (1.0 - self.own_volume);
+            let mean =
+                self.moduli.volumetric_stress(volume / cell.volume) * (1.0 - self.own_volume);
             for block in blocks {
                 let f = self.gradient(cell, block, u);
                 let j = S::determinant(&f);

@@ -361,7 +361,10 @@ impl<'a, M: Constitutive<Axisymmetric>, const P: usize, const N: usize> Updated<
                 plastic_strain: M::plastic_strain(&p.state).array()[0],
                 von_mises: 1.5f64.sqrt() * p.shear_norm / j,
                 pressure: -self.material.moduli().volumetric_stress(j),
-                temperature: self.material.temperature(&p.state).map_or(0.0, |t| t.array()[0]),
+                temperature: self
+                    .material
+                    .temperature(&p.state)
+                    .map_or(0.0, |t| t.array()[0]),
             }
         };
         let outline = |&c: &usize| {

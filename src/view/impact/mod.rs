@@ -142,7 +142,11 @@ fn scale(quantity: &Quantity, film: &Film) -> Option<Scale> {
     values.sort_unstable_by(f64::total_cmp);
     let skip = (STRAY * values.len() as f64) as usize;
     let high = *values.get(values.len().checked_sub(1 + skip)?)?;
-    let low = if quantity.from_zero { 0.0 } else { values[skip] };
+    let low = if quantity.from_zero {
+        0.0
+    } else {
+        values[skip]
+    };
     (high > low).then_some(Scale {
         name: quantity.name,
         unit: quantity.unit,
