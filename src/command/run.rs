@@ -139,7 +139,7 @@ fn stages(
 ) -> Result<Results> {
     let provenance = context.provenance(&case.hash);
     let plans = plans(case)?;
-    let simulated = impact::impacts(case, out, (interval, 0), context)?;
+    let simulated = impact::impacts(case, out, interval, context)?;
     let impacts: Vec<Impact> = simulated.iter().map(|one| one.impact.clone()).collect();
     let (simulated, unfinished): (Vec<_>, Vec<_>) = simulated
         .into_iter()

@@ -1,6 +1,7 @@
 //! Impacts through the real binary: files of the contract, and a run that cannot finish.
 
 use crate::program::{impactlaw, message};
+use crate::reference::assert_described;
 use impactlaw::curve::{Impact, Part, ParticleMap, Status};
 use std::path::Path;
 use std::process::Output;
@@ -107,6 +108,61 @@ fn a_film_shows_the_particle_at_rising_times_and_goes_with_its_impact() {
         let output = impact(folder.path(), &text, &["--film", refused]);
         assert_eq!(output.status.code(), Some(2), "{refused}");
     }
+}
+
+#[test]
+fn a_particle_thrown_again_gives_back_more_and_the_first_impact_is_that_of_one_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = case("1 MPa", "1 m/s");
+    let place = folder.path().join("o/impact_V1");
+    let body = |file: &str| {
+        let text = std::fs::read_to_string(place.join(file)).unwrap();
+        text.split_once('\n').unwrap().1.to_owned()
+    };
+    assert!(impact(folder.path(), &text, &[]).status.success());
+    let alone = body("curve.csv");
+    let output = impact(folder.path(), &text, &["--repeats", "4"]);
+    assert!(output.status.success(), "{}", message(&output));
+    assert_eq!(body("curve.csv"), alone);
+    assert!(
+        String::from_utf8(output.stdout)
+            .unwrap()
+            .contains("repeat_4")
+    );
+    assert!(assert_described(folder.path()).contains("repeats.csv"));
+    let mut rows = csv::ReaderBuilder::new()
+        .comment(Some(b'#'))
+        .from_path(place.join("repeats.csv"))
+        .unwrap();
+    let rows: Vec<Vec<f64>> = rows.deserialize().map(Result::unwrap).collect();
+    assert_eq!(rows.len(), 4);
+    for (row, number) in rows.iter().zip(1..) {
+        let kept = match number {
+            1 => Impact::read(&place),
+            _ => Impact::read(&place.join(format!("repeat_{number}"))),
+        };
+        let summary = kept.unwrap().summary;
+        assert_eq!((row[0], row[1]), (f64::from(number), summary.restitution));
+    }
+    // the flat that the first impact leaves carries the second with less plastic work, and so on
+    for pair in rows.windows(2) {
+        let [e, work, strain] = [1, 6, 7].map(|column| (pair[0][column], pair[1][column]));
+        assert!(
+            e.1 > e.0 && work.1 < work.0 && strain.1 > strain.0,
+            "{rows:?}"
+        );
+    }
+
+    assert!(
+        impact(folder.path(), &text, &["--repeats", "2"])
+            .status
+            .success()
+    );
+    assert!(place.join("repeat_2").is_dir() && !place.join("repeat_3").exists());
+    assert!(impact(folder.path(), &text, &[]).status.success());
+    assert!(!place.join("repeat_2").exists() && !place.join("repeats.csv").exists());
+    let refused = impact(folder.path(), &text, &["--repeats", "1"]);
+    assert_eq!(refused.status.code(), Some(2));
 }
 
 #[test]
