@@ -46,7 +46,7 @@ impl Command for CompareArgs {
     /// Those of reading the case, the impacts and the law, and of writing the files.
     fn run(&self, context: &Context) -> Result<Verdict> {
         let case = Case::read(&self.case)?;
-        case.of_a_sphere("a comparison with laws of spheres")?;
+        case.of_a_normal_impact("a comparison with laws of spheres")?;
         let folder = self
             .impacts
             .clone()

@@ -57,7 +57,7 @@ impl Command for CostArgs {
     /// Those of reading the case and writing the files; [`Error::Impact`] when the finest run does not finish.
     fn run(&self, context: &Context) -> Result<Verdict> {
         let case = Case::read(&self.case)?.with_velocities(&self.velocity)?;
-        case.of_a_sphere("a ladder of settings")?;
+        case.of_a_normal_impact("a ladder of settings")?;
         let longest = unit::argument::<Time>("--longest", &self.longest)?;
         let claim = output_folder(self.out.as_deref(), &case.name)?;
         context.open_log(&claim, "cost", &case.hash);

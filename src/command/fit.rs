@@ -115,20 +115,10 @@ pub fn check_target(target: &Path, case: &Case) -> Result<()> {
 /// Checks that a normal law can be made of the impacts of a case.
 ///
 /// # Errors
-/// [`Error::Refused`] for what is no sphere and for a flow stress that depends on the size, [`Error::Argument`] for an oblique impact
-/// or a wall with friction.
+/// [`Error::Refused`] for what is no sphere, for an oblique impact, a wall with friction, and a flow stress that depends on the size.
 pub fn check_case(case: &Case) -> Result<()> {
-    case.of_a_sphere("a law")?;
-    crate::fit::check_material(&case.material)?;
-    if case.angle == 0.0 && case.friction == 0.0 {
-        return Ok(());
-    }
-    Err(Error::Argument {
-        argument: case.path.display().to_string(),
-        found: "`impact.angle` or `wall.friction`".to_owned(),
-        allowed: "a normal law is fitted to normal impacts on a frictionless wall; use `impact`"
-            .to_owned(),
-    })
+    case.of_a_normal_impact("a law")?;
+    crate::fit::check_material(&case.material)
 }
 
 /// Impacts of the case in `folder`, slowest first: those of its speeds, of its own material and radius. Folders of other speeds

@@ -16,7 +16,6 @@ use crate::inverse::refine::{Run, refine};
 use crate::inverse::search::{Problem, Unknowns};
 use crate::material::flow::{HARDENING_MODULUS, YIELD_STRENGTH};
 use crate::material::{Flow, Material};
-use crate::shape::Shape;
 use crate::study::{Groups, Study};
 use crate::unit::{Length, Pressure, argument};
 use crate::{Error, Result};
@@ -252,14 +251,7 @@ impl InverseArgs {
             Some(path) => Case::read(path)?,
             None => self.material.case("arguments", self.tolerance, None, &[])?,
         };
-        if case.shape != Shape::Sphere || case.angle > 0.0 {
-            return Err(Error::Refused {
-                what: format!("{}", case.path.display()),
-                found: "another body or an oblique impact".to_owned(),
-                allowed: "must be the normal impact of a sphere: that is what the atlas knows"
-                    .to_owned(),
-            });
-        }
+        case.of_a_normal_impact("the atlas")?;
         let mut hardening = 0.0;
         for (constant, value) in case.material.flow.iter().flat_map(Flow::constants) {
             match constant {

@@ -79,7 +79,7 @@ impl Command for TheoryArgs {
         match (&self.model, &self.case) {
             (Some(model), Some(case)) => {
                 let case = Case::read(case)?;
-                case.of_a_sphere("a theory")?;
+                case.of_a_normal_impact("a theory")?;
                 let publication = match formula(model) {
                     Some(formula) => formula,
                     None => model.parse::<Theory>()?.publication(),

@@ -130,7 +130,7 @@ pub fn check_material(material: &Material) -> Result<()> {
 /// # Errors
 /// What [`check_material`] returns; [`Error::Fit`] when no impact is left, or neither form finds an admissible law.
 pub fn fit(case: &Case, impacts: &[Impact]) -> Result<Fit> {
-    case.of_a_sphere("a law")?;
+    case.of_a_normal_impact("a law")?;
     check_material(&case.material)?;
     let elastic_scale = Scale::elastic(&case.material, case.radius);
     let (used, skipped) = usable(impacts, &elastic_scale);

@@ -194,13 +194,32 @@ fn what_no_law_holds_for_is_refused_by_name_before_the_first_step_and_nothing_is
         "[particle]",
         "[particle]\nshape = \"cylinder\"\nlength = \"1 mm\"",
     );
-    let cases: [(&str, &[&str], &str); 6] = [
+    let steel = case("100 GPa", "20 m/s");
+    let oblique = steel.replace("[accuracy]", "angle = \"60 deg\"\n[accuracy]");
+    let rough = format!("{steel}[wall]\nfriction = 0.3\n");
+    let cases: [(&str, &[&str], &str); 14] = [
         (COPPER, &["run", "c.toml"], "`reference_rate`"),
         (COPPER, &["fit", "c.toml"], "`reference_rate`"),
         (&bar, &["run", "c.toml"], "\"cylinder\""),
         (&bar, &["fit", "c.toml"], "\"cylinder\""),
         (&bar, &["cost", "c.toml"], "\"cylinder\""),
         (&bar, &["theory", "hertz", "c.toml"], "\"cylinder\""),
+        (&oblique, &["run", "c.toml"], "`impact.angle`: found 60"),
+        (&oblique, &["fit", "c.toml"], "`impact.angle`"),
+        (&oblique, &["cost", "c.toml"], "`impact.angle`"),
+        (&oblique, &["theory", "hertz", "c.toml"], "`impact.angle`"),
+        (
+            &oblique,
+            &["compare", "c.toml", "--law", "atlas"],
+            "`impact.angle`",
+        ),
+        (&rough, &["run", "c.toml"], "`wall.friction`: found 0.3"),
+        (&rough, &["theory", "hertz", "c.toml"], "`wall.friction`"),
+        (
+            &rough,
+            &["compare", "c.toml", "--law", "atlas"],
+            "`wall.friction`",
+        ),
     ];
     for (text, arguments, named) in cases {
         std::fs::write(folder.path().join("c.toml"), text).unwrap();
