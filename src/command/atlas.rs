@@ -57,6 +57,9 @@ impl Command for AtlasArgs {
             false => None,
         };
         let folder = study_folder(self.runs.as_deref(), &study);
+        for case in &study.cases {
+            case.of_a_normal_impact("the atlas")?;
+        }
         let (out, _shards) = whole(&folder, &study)?;
         context.open_log(&out, "atlas", &study.hash);
         let runs = simulated(&study, queue(&study), &[&out], interval, context)?;

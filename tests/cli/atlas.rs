@@ -109,6 +109,27 @@ fn what_the_atlas_does_not_hold_is_refused_by_name_and_nothing_is_written() {
 }
 
 #[test]
+fn an_atlas_of_oblique_impacts_is_refused_before_the_first_of_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = std::fs::read_to_string("cases/atlas.toml").unwrap();
+    let text = text.replace("[impact]\n", "[impact]\nangle = \"30 deg\"\n");
+    std::fs::write(folder.path().join("oblique.toml"), text).unwrap();
+    for words in [
+        &["atlas", "oblique.toml"][..],
+        &["atlas", "oblique.toml", "--compare"],
+    ] {
+        let refused = run(folder.path(), words);
+        assert_eq!(refused.status.code(), Some(2), "{words:?}");
+        assert!(
+            message(&refused).contains("impact.angle"),
+            "{}",
+            message(&refused)
+        );
+        assert!(!folder.path().join("out").exists(), "{words:?}");
+    }
+}
+
+#[test]
 fn the_laws_of_the_shipped_materials_are_what_one_command_makes() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let folder = tempfile::tempdir().unwrap();
