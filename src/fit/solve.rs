@@ -1,6 +1,7 @@
 //! Solvers of the fit: a simplex that finds the basin, then damped Gauss-Newton steps to its bottom.
 
 use super::form::{Form, UNLOADING};
+use super::marquardt::{Stop, minimise};
 use super::residual::{Objective, Part, Pressed, half_squares};
 use crate::{Error, Result};
 use argmin::core::{CostFunction, Executor, State};
@@ -162,45 +163,22 @@ fn simplex<F: Form>(
 /// # Errors
 /// [`Error::Fit`] when `free` is not admissible.
 pub fn polish<F: Form>(objective: &Objective<'_, F>, free: &[f64], least: f64) -> Result<Vec<f64>> {
-    let mut free = free.to_vec();
-    let mut damping = 1e-3;
-    let mut cost = objective.cost(&free, Part::All);
-    if !cost.is_finite() {
+    let cost = |free: &[f64]| objective.cost(free, Part::All);
+    if !cost(free).is_finite() {
         return Err(Error::Fit {
             reason: "no admissible law near the start".to_owned(),
         });
     }
-    for _ in 0..POLISH_STEPS {
-        let Some((jacobian, residuals)) = jacobian(objective, &free) else {
-            break;
-        };
-        let normal = jacobian.transpose() * &jacobian;
-        let downhill = jacobian.transpose() * residuals;
-        let mut fall = 0.0;
-        while damping < 1e9 && fall <= 0.0 {
-            let mut damped = normal.clone();
-            for i in 0..free.len() {
-                damped[(i, i)] *= 1.0 + damping;
-            }
-            let Some(step) = damped.cholesky().map(|c| c.solve(&downhill)) else {
-                damping *= 10.0;
-                continue;
-            };
-            let trial: Vec<f64> = free.iter().zip(step.iter()).map(|(a, b)| a - b).collect();
-            let there = objective.cost(&trial, Part::All);
-            if there < cost {
-                fall = (cost - there) / cost;
-                (free, cost) = (trial, there);
-                damping *= 0.1;
-            } else {
-                damping *= 10.0;
-            }
-        }
-        if fall < least {
-            break;
-        }
-    }
-    Ok(free)
+    let stop = Stop {
+        steps: POLISH_STEPS,
+        fall: least,
+    };
+    let normal = |free: &[f64]| {
+        let (jacobian, residuals) = jacobian(objective, free)?;
+        let transposed = jacobian.transpose();
+        Some((&transposed * jacobian, -(transposed * residuals)))
+    };
+    Ok(minimise(free, stop, cost, normal).0)
 }
 
 /// Residuals and their derivatives by forward differences (backward where forward is not admissible); `None` where neither is.
