@@ -45,11 +45,14 @@
     pen.clearRect(0, 0, w, h);
     return [pen, w, h];
   };
-  const broad = film.mirrored ? 2 * (film.edge + film.low[0]) : film.edge;
+  const farthest = film.frames.reduce((far, _, k) => placesOf(k, "surface").reduce((most, count, i) => (i % 3 ? most : Math.max(most, count)), far), 0);
+  const broad = film.mirrored ? 2 * (farthest * step + film.low[0]) || film.edge : film.edge;
   /** Pixels a metre, and where the wall meets the axis. */
   const frame = (w, h) => {
-    const foot = document.querySelector(".controls").offsetHeight + 40;
-    const head = 60;
+    // on a narrow screen curve and legend stand above and below the particle, not beside it
+    const narrow = w <= 640;
+    const foot = document.querySelector(".controls").offsetHeight + 40 + (narrow ? $("legend").offsetHeight + 10 : 0);
+    const head = narrow ? curve.offsetTop + curve.offsetHeight + 10 : 60;
     const scale = 0.86 * Math.min(w / broad, (h - foot - head) / film.edge) * eye.zoom;
     const middle = film.mirrored ? 0 : film.low[0] + 0.5 * film.edge;
     return { scale, x: 0.5 * w + eye.x - middle * scale, y: h - foot - 26 + eye.y };
@@ -60,25 +63,35 @@
     const { scale, x, y } = frame(w, h);
     pen.fillStyle = ink("--line");
     pen.fillRect(0, y, w, 6);
-    const places = placesOf(now, "places");
-    const levels = film.scales.length ? levelsOf(now, quantity) : null;
-    for (let i = 0, n = places.length / 3; i < n; i++) {
-      const r = places[3 * i] * step + film.low[0], z = places[3 * i + 1] * step + film.low[1];
-      const size = Math.max(places[3 * i + 2] * step * scale * 1.08, 1);
-      pen.fillStyle = levels ? palette[levels[i]] : ink("--accent");
-      for (const side of sides) pen.fillRect(x + side * r * scale - 0.5 * size, y - z * scale - 0.5 * size, size, size);
-    }
     const surface = placesOf(now, "surface");
-    pen.strokeStyle = ink("--ink");
-    pen.lineWidth = 1.2;
+    const outline = new Path2D();
     for (const side of sides) {
-      pen.beginPath();
       for (let i = 0, n = surface.length / 3; i < n; i++) {
         const r = surface[3 * i] * step + film.low[0], z = surface[3 * i + 1] * step + film.low[1];
-        pen.lineTo(x + side * r * scale, y - z * scale);
+        // points of the surface end beside the axis
+        if (i === 0) outline.moveTo(film.mirrored ? x : x + r * scale, y - z * scale);
+        outline.lineTo(x + side * r * scale, y - z * scale);
+        if (i === n - 1 && film.mirrored) outline.lineTo(x, y - z * scale);
       }
-      pen.stroke();
     }
+    const places = placesOf(now, "places");
+    const levels = film.scales.length ? levelsOf(now, quantity) : null;
+    const plain = ink("--accent");
+    pen.save();
+    if (surface.length) pen.clip(outline);
+    // points stand for patches that may be oblong: wide ones first close the gaps between them
+    for (const share of [2.6, 1.08]) {
+      for (let i = 0, n = places.length / 3; i < n; i++) {
+        const r = places[3 * i] * step + film.low[0], z = places[3 * i + 1] * step + film.low[1];
+        const size = Math.max(places[3 * i + 2] * step * scale * share, 1);
+        pen.fillStyle = levels ? palette[levels[i]] : plain;
+        for (const side of sides) pen.fillRect(x + side * r * scale - 0.5 * size, y - z * scale - 0.5 * size, size, size);
+      }
+    }
+    pen.restore();
+    pen.strokeStyle = ink("--ink");
+    pen.lineWidth = 1.2;
+    pen.stroke(outline);
     const nice = [1, 2, 5].flatMap((d) => Array.from({ length: 16 }, (_, p) => d * 10 ** (p - 12))).sort((a, b) => a - b);
     const length = nice.filter((l) => l * scale <= 130).pop() || nice[0];
     $("length").textContent = told(length, "m");
@@ -186,7 +199,9 @@
     if (event.key === " ") { event.preventDefault(); $("play").click(); }
   });
   const resize = () => {
-    document.documentElement.style.setProperty("--low", `${document.querySelector(".controls").offsetHeight}px`);
+    const set = (name, of) => document.documentElement.style.setProperty(name, `${document.querySelector(of).offsetHeight}px`);
+    set("--low", ".controls");
+    set("--head", "header");
     draw();
   };
   addEventListener("resize", resize);
