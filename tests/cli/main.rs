@@ -3,11 +3,17 @@
 mod atlas;
 mod bed_resume;
 mod bed_shipped;
+#[path = "../support/browser.rs"]
+mod browser;
 mod cost;
 mod discover;
 mod discover_study;
+<<<<<<< HEAD
 #[path = "../support/four_cases.rs"]
 mod four_cases;
+=======
+mod film;
+>>>>>>> 0374c0e (The page of an impact in a real browser)
 mod guide;
 mod help;
 mod impact;
