@@ -1,17 +1,16 @@
 //! Films of impacts: what ParaView reads, and the page in a real browser.
 
 use crate::browser;
-use crate::impact::{case, impact};
+use crate::impact::{STEEL, impact};
 use crate::program::message;
 use impactlaw::curve::{Impact, Part, ParticleMap};
 
 #[test]
 fn a_film_shows_the_particle_at_rising_times_and_goes_with_its_impact() {
     let folder = tempfile::tempdir().unwrap();
-    let text = case("1 MPa", "1 m/s");
-    let output = impact(folder.path(), &text, &["--film", "20"]);
+    let output = impact(folder.path(), STEEL, &["--film", "20"]);
     assert!(output.status.success(), "{}", message(&output));
-    let film = folder.path().join("o/impact_V1/film");
+    let film = folder.path().join("o/impact_V20/film");
     let times: Vec<f64> = std::fs::read_to_string(film.join("points.pvd"))
         .unwrap()
         .split("timestep=\"")
@@ -55,7 +54,7 @@ fn a_film_shows_the_particle_at_rising_times_and_goes_with_its_impact() {
         "{heights:?}"
     );
     assert!(
-        *heights.last().unwrap() > summary.max_displacement_m,
+        *heights.last().unwrap() > 0.1 * summary.max_displacement_m,
         "{heights:?}"
     );
 
@@ -63,11 +62,11 @@ fn a_film_shows_the_particle_at_rising_times_and_goes_with_its_impact() {
     assert!(page.contains("equivalent plastic strain") && !page.contains("http"));
 
     // an impact without a film leaves none of an earlier one
-    assert!(impact(folder.path(), &text, &[]).status.success());
+    assert!(impact(folder.path(), STEEL, &[]).status.success());
     assert!(!film.join("film.html").exists());
     assert!(!film.join("points.pvd").exists() && !film.join("surface_0003.vtp").exists());
     for refused in ["0", "401", "many"] {
-        let output = impact(folder.path(), &text, &["--film", refused]);
+        let output = impact(folder.path(), STEEL, &["--film", refused]);
         assert_eq!(output.status.code(), Some(2), "{refused}");
     }
 }
@@ -106,9 +105,9 @@ document.body.append(out);
 #[test]
 fn the_page_of_a_film_draws_the_particle_and_follows_every_control() {
     let folder = tempfile::tempdir().unwrap();
-    let output = impact(folder.path(), &case("1 MPa", "1 m/s"), &["--film", "20"]);
+    let output = impact(folder.path(), STEEL, &["--film", "20"]);
     assert!(output.status.success(), "{}", message(&output));
-    let page = folder.path().join("o/impact_V1/film/film.html");
+    let page = folder.path().join("o/impact_V20/film/film.html");
     let page = std::fs::read_to_string(page).unwrap();
     let Some(browser) = browser::find() else {
         return;
