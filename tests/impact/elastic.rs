@@ -57,7 +57,8 @@ fn change(a: f64, b: f64) -> f64 {
 
 #[test]
 fn the_pressure_below_an_elastic_contact_is_hertz_s() {
-    let plan = planned(0.01 * bar_speed(), 0.01);
+    // slow enough for small strains: at ten times the speed the pressure is 9 % higher
+    let plan = planned(0.001 * bar_speed(), 0.02);
     let done = simulate(&elastic(), RADIUS, &plan);
     let force = done.impact.summary.max_force_n;
     let radius = (0.75 * force * RADIUS / elastic().contact_modulus()).cbrt();
