@@ -8,12 +8,9 @@ mod browser;
 mod cost;
 mod discover;
 mod discover_study;
-<<<<<<< HEAD
+mod film;
 #[path = "../support/four_cases.rs"]
 mod four_cases;
-=======
-mod film;
->>>>>>> 0374c0e (The page of an impact in a real browser)
 mod guide;
 mod help;
 mod impact;
