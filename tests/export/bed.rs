@@ -1,5 +1,4 @@
-//! A bed of some thousand grains under the exported law in LIGGGHTS and LAMMPS, on one and two processors, and here: the lower
-//! third of the packing of the benches, in which ten thousand are run side by side.
+//! A bed under the exported law in LIGGGHTS and LAMMPS, on one and two processors, and here: the packing of the benches.
 //!
 //! Two beds: solder shaken so hard that it yields, from a packing loosened until no grain touches another, so that every
 //! contact begins within the run; and the settled packing of soft grains under its weight.
@@ -24,8 +23,8 @@ use std::path::Path;
 
 /// Steps after which rounding has not grown yet, and at the end.
 const STEPS: [usize; 2] = [50, 1000];
-/// Height up to which grains of the packing are taken, m.
-const HEIGHT: f64 = 12e-3;
+/// Height up to which grains of the packing are taken to be shaken, m: more than three thousand.
+const LOWER_THIRD: f64 = 12e-3;
 /// Radius over that of the settled packing at which none of its grains touches another: its deepest contact is 0.59 %
 /// of a diameter.
 const LOOSE: f64 = 0.994;
@@ -36,6 +35,8 @@ const SHAKE: f64 = 5.0;
 struct Start {
     law: Portable,
     radius: f64,
+    /// Height up to which grains are taken, m.
+    height: f64,
     shake: f64,
     dt: f64,
 }
@@ -48,6 +49,7 @@ impl Start {
         Start {
             law,
             radius,
+            height: LOWER_THIRD,
             shake: SHAKE,
             dt,
         }
@@ -57,6 +59,8 @@ impl Start {
         Start {
             law: soft_law(),
             radius: packing::RADIUS,
+            // what rests on the lower ones keeps them at rest
+            height: f64::INFINITY,
             shake: 0.0,
             dt: 5e-6,
         }
@@ -68,7 +72,7 @@ impl Start {
         for place in packing
             .spheres
             .iter()
-            .filter(|place| place.centre.z < HEIGHT)
+            .filter(|place| place.centre.z < self.height)
         {
             grains.add(place.centre, self.radius, self.law.material().density);
         }
