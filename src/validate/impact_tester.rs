@@ -178,8 +178,8 @@ fn one_strength(found: &Found) -> Derived {
         text: format!(
             "Not measured: the points are lost, and what is used is what the thesis says of them in words. Restitution is taken for twice that of Wu and \
              others, compression by the cap for equation 5-5, both with the indented strength of 97.59 MPa. Impacts with other strengths say which one \
-             would give each of them.{said} Both call for a solder that is about as much stronger in an impact than under the indenter; the thesis blames \
-             the restitution on what its scheme loses, which would make it too low and not too high. The strength for the compression falls with the speed, because equation 5-5 rises with the speed to the power of \
+             would give each of them.{said} Both call for a solder that is about as much stronger in an impact than under the indenter. The thesis explains by what its scheme loses that \
+             equation 4-9 lies below the measured restitution; but 4-9 lies above our impacts already, so what is missing is no loss. The strength for the compression falls with the speed, because equation 5-5 rises with the speed to the power of \
              1.32 and the caps of one strength to that of 1.16."
         ),
         head: vec![

@@ -10,6 +10,7 @@ mod elastic_spheres;
 mod impact_tester;
 mod lead_nickel;
 pub mod measured;
+mod prepare;
 pub mod row;
 pub mod sample;
 mod taylor_bar;
@@ -20,9 +21,9 @@ use crate::study::Study;
 use crate::unit::significant;
 use crate::{Error, Result};
 use measured::{Entry, Figure, Input, Quantity};
+pub use prepare::Prepared;
+use prepare::about;
 use row::{Outcome, Row};
-use sample::{Sampling, interval};
-use std::path::Path;
 
 /// What the cases of an experiment are written in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -108,6 +109,22 @@ impl Bound {
     }
 }
 
+impl Bound {
+    /// That `value` lies within the uncertainty of what was measured; where there is no such reading it does not.
+    #[must_use]
+    pub fn inside(of: String, value: Option<f64>, reading: Option<[f64; 2]>) -> Self {
+        match reading {
+            Some([middle, half]) => Bound::within(of, value, middle, half),
+            None => Bound {
+                of,
+                found: "nothing measured with an uncertainty".to_owned(),
+                must: "measured, with an uncertainty".to_owned(),
+                met: false,
+            },
+        }
+    }
+}
+
 /// A table that follows from the impacts of an experiment.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Derived {
@@ -175,117 +192,6 @@ impl Stated {
     }
 }
 
-/// An input that is uncertain, and the cases one standard deviation below and above, by their place in [`Prepared::cases`].
-#[derive(Debug, Clone, PartialEq)]
-struct Varied {
-    of: usize,
-    ends: [usize; 2],
-}
-
-/// An experiment whose files were read and fit each other.
-#[derive(Debug, Clone)]
-pub struct Prepared {
-    /// What it is.
-    pub stated: &'static Stated,
-    /// What its table says.
-    pub entries: Vec<Entry>,
-    /// Its own cases, then those with an input changed.
-    pub cases: Vec<Case>,
-    own: usize,
-    varied: Vec<Varied>,
-}
-
-/// Relative difference below which a case file and a table say the same.
-const SAME: f64 = 1e-9;
-
-impl Prepared {
-    /// An experiment from its study file and its table.
-    ///
-    /// # Errors
-    /// Those of reading both, and [`Error::Value`] naming the line of the table that is about no case, or says another input than the case.
-    pub fn new(
-        stated: &'static Stated,
-        cases: (&str, &Path),
-        measured: (&str, &Path),
-    ) -> Result<Self> {
-        let cases = stated.file.cases(&Document::new(cases.1, cases.0))?;
-        let entries = measured::parse(measured.0, measured.1)?;
-        for entry in &entries {
-            check(entry, &cases, measured.1)?;
-        }
-        let own = cases.len();
-        let mut prepared = Prepared {
-            stated,
-            entries,
-            cases,
-            own,
-            varied: Vec::new(),
-        };
-        for of in 0..own {
-            if prepared.namesakes(of) > 1 {
-                continue;
-            }
-            let case = prepared.cases[of].clone();
-            let about = about(&prepared.entries, &case.name);
-            let changes: Vec<(Input, f64)> = about
-                .filter_map(|entry| match entry.quantity {
-                    // no part of a case: the speed that follows from it is
-                    Quantity::Input(Input::GaugePressure) | Quantity::Figure(_) => None,
-                    Quantity::Input(input) => Some((input, entry.uncertainty?)),
-                })
-                .collect();
-            for (input, by) in changes {
-                let ends = [-by, by].map(|by| {
-                    prepared.cases.push(changed(&case, input, by));
-                    prepared.cases.len() - 1
-                });
-                prepared.varied.push(Varied { of, ends });
-            }
-        }
-        Ok(prepared)
-    }
-
-    /// What was found, from the outcomes of [`Prepared::cases`]; `place` keeps the draws of experiments apart.
-    #[must_use]
-    pub fn found(self, outcomes: Vec<Outcome>, sampling: &Sampling, place: u64) -> Found {
-        let mut rows = Vec::new();
-        for of in 0..self.own {
-            let outcome = &outcomes[of];
-            let about: Vec<&Entry> = about(&self.entries, &outcome.case.name).collect();
-            if about.is_empty() || self.namesakes(of) > 1 {
-                continue;
-            }
-            for &figure in self.stated.figures {
-                let ends = self.varied.iter().filter(|varied| varied.of == of);
-                let ends = ends.map(|varied| {
-                    let end = |k: usize| outcomes[varied.ends[k]].figure(figure);
-                    Some([end(0)?, end(1)?])
-                });
-                let ends: Option<Vec<[f64; 2]>> = ends.collect();
-                let drawn = outcome.figure(figure).zip(ends).and_then(|(value, ends)| {
-                    interval(value, &ends, sampling, place << 32 | of as u64)
-                });
-                rows.push(Row::of(self.stated.name, outcome, figure, &about, drawn));
-            }
-        }
-        Found {
-            stated: self.stated,
-            entries: self.entries,
-            own: self.own,
-            outcomes,
-            rows,
-        }
-    }
-
-    /// Cases of the name of this one: those of a list of strengths are not what was measured.
-    fn namesakes(&self, of: usize) -> usize {
-        let own = &self.cases[..self.own];
-        own.iter()
-            .filter(|one| one.name == self.cases[of].name)
-            .count()
-    }
-}
-
 /// What the impacts of an experiment gave.
 #[derive(Debug, Clone)]
 pub struct Found {
@@ -345,68 +251,6 @@ impl Found {
     }
 }
 
-/// Entries about a case: of its name, or of what its name begins with up to a comma.
-fn about<'a>(entries: &'a [Entry], case: &str) -> impl Iterator<Item = &'a Entry> {
-    let case = case.to_owned();
-    entries.iter().filter(move |entry| is_about(entry, &case))
-}
-
-fn is_about(entry: &Entry, case: &str) -> bool {
-    let rest = case.strip_prefix(&entry.case[..]);
-    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(", "))
-}
-
-/// That an entry is about a case of the case file, and an input the same there.
-fn check(entry: &Entry, cases: &[Case], path: &Path) -> Result<()> {
-    let refuse = |column: &str, found: String, allowed: &str| {
-        let key = format!("line {}, {column}", entry.line);
-        Err(Error::in_table(path, &key, found, allowed))
-    };
-    let mut cases = cases
-        .iter()
-        .filter(|case| is_about(entry, &case.name))
-        .peekable();
-    if cases.peek().is_none() {
-        let found = format!("`{}`", entry.case);
-        let allowed =
-            "must be the name of a case of the case file, or what it begins with before a comma";
-        return refuse("case", found, allowed);
-    }
-    let (Quantity::Input(input), Some(value)) = (entry.quantity, entry.value) else {
-        return Ok(());
-    };
-    for case in cases {
-        let there = match input {
-            Input::Velocity => case.velocities[0],
-            Input::YoungModulus => case.material.young_modulus,
-            Input::Density => case.material.density,
-            Input::Diameter => 2.0 * case.radius,
-            Input::GaugePressure => continue,
-        };
-        if (there / value - 1.0).abs() > SAME {
-            let allowed = format!(
-                "must be {there}, as case `{}` of the case file has it",
-                case.name
-            );
-            return refuse("value", value.to_string(), &allowed);
-        }
-    }
-    Ok(())
-}
-
-/// A case with an input changed by an amount.
-fn changed(case: &Case, input: Input, by: f64) -> Case {
-    let mut case = case.clone();
-    match input {
-        Input::Velocity => case.velocities[0] += by,
-        Input::YoungModulus => case.material.young_modulus += by,
-        Input::Density => case.material.density += by,
-        Input::Diameter => case.radius += 0.5 * by,
-        Input::GaugePressure => {}
-    }
-    case
-}
-
 /// Value at `x` of the parabola through three points.
 fn parabola(points: &[[f64; 2]; 3], x: f64) -> f64 {
     let term = |i: usize| {
@@ -449,44 +293,6 @@ experiments! {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn prepared(stated: &'static Stated) -> Prepared {
-        let of = |text: &'static str| (text, Path::new(stated.name));
-        Prepared::new(stated, of(stated.cases), of(stated.measured)).unwrap()
-    }
-
-    #[test]
-    fn every_experiment_reads_and_has_a_case_below_and_above_each_uncertain_input() {
-        for stated in EXPERIMENTS {
-            let read = prepared(stated);
-            assert_eq!(read.cases.len(), read.own + 2 * read.varied.len());
-            for Varied { of, ends } in &read.varied {
-                let [low, high] = ends.map(|end| &read.cases[end]);
-                assert_ne!(low, high);
-                assert_eq!(low.name, read.cases[*of].name);
-            }
-        }
-        assert_eq!(prepared(&EXPERIMENTS[0]).varied.len(), 6);
-    }
-
-    #[test]
-    fn what_fits_no_case_is_refused_by_line() {
-        let stated = &EXPERIMENTS[0];
-        let refusal = |from: &str, to: &str| {
-            let text = stated.measured.replacen(from, to, 1);
-            assert_ne!(text, stated.measured);
-            let cases = (stated.cases, Path::new("balls.toml"));
-            let read = Prepared::new(stated, cases, (&text, Path::new("balls.csv")));
-            read.unwrap_err().to_string()
-        };
-        let said = refusal("ball 1,measured", "ball 7,measured");
-        assert!(said.contains("line 11, case"), "{said}");
-        let said = refusal("velocity_m_s,4.3,", "velocity_m_s,4.4,");
-        assert!(
-            said.contains("line 10, value") && said.contains("4.3"),
-            "{said}"
-        );
-    }
 
     #[test]
     fn the_strength_of_a_power_law_is_found() {

@@ -27,10 +27,10 @@ impl Experiment for TaylorBar {
     fn bounds(found: &Found) -> Vec<Bound> {
         let near = |row: &Row| {
             let of = format!("{}, m", Quantity::Figure(row.figure).name());
-            let value = row.value()?;
-            Some(Bound::within(of, row.ours, value, TOLERANCE * value))
+            let reading = row.value().map(|value| [value, TOLERANCE * value]);
+            Bound::inside(of, row.ours, reading)
         };
-        found.rows.iter().filter_map(near).collect()
+        found.rows.iter().map(near).collect()
     }
 
     fn tables(_: &Found) -> Vec<Derived> {

@@ -23,13 +23,14 @@ pub(super) fn quantity(bytes: &[u8], _: &Path) -> Accepted {
 }
 
 /// Command lines, a word a line.
-pub(super) const COMMANDS: [&str; 6] = [
+pub(super) const COMMANDS: [&str; 7] = [
     "impactlaw\nrun\ncases/solder-ball.toml\n--out\no\n--no-bed\n--seed\n3",
     "impactlaw\n-v\nimpact\nc.toml\n--velocity\n10 m/s\n--checkpoint\n30 s\n--threads\n2",
     "impactlaw\nbed\ns.toml\n--law\nlaw.toml\n--seed\n18446744073709551615",
     "impactlaw\nbed\nexport\ns.toml\n--to\nlammps",
     "impactlaw\nexport\nlaw.toml\n--to\nc\n--check",
     "impactlaw\nstudy\ns.toml\n--refine\n20",
+    "impactlaw\nvalidate\n--only\nballs,lead-nickel\n--draws\n500",
 ];
 
 pub(super) fn command_line(bytes: &[u8], _: &Path) -> Accepted {
