@@ -57,8 +57,9 @@ fn change(a: f64, b: f64) -> f64 {
 
 #[test]
 fn the_pressure_below_an_elastic_contact_is_hertz_s() {
-    // slow enough for small strains: at ten times the speed the pressure is 9 % higher
-    let plan = planned(0.001 * bar_speed(), 0.02);
+    // slow, for the sphere is no half-space: at a hundred times the speed the pressure is 5 % higher. A cell has one pressure, its
+    // mean: from its middle to its edge Hertz's changes by 3 %.
+    let plan = planned(1e-4 * bar_speed(), 0.01);
     let done = simulate(&elastic(), RADIUS, &plan);
     let force = done.impact.summary.max_force_n;
     let radius = (0.75 * force * RADIUS / elastic().contact_modulus()).cbrt();
