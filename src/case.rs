@@ -6,7 +6,7 @@ use crate::document::range;
 use crate::material::flow::{FlowConstants, InText, WithFlow};
 use crate::material::{Flow, Material};
 use crate::shape::Shape;
-use crate::unit::{self, Angle, Density, Length, Pressure, Quantity, Velocity, significant};
+use crate::unit::{self, Angle, Density, Length, Pressure, Quantity, Velocity};
 use crate::{Error, Result};
 use named::Given;
 use serde::Deserialize;
@@ -16,6 +16,7 @@ use wall::WallTable;
 
 pub mod named;
 pub mod pair;
+mod scope;
 pub(crate) mod slips;
 mod wall;
 
@@ -338,47 +339,6 @@ impl Case {
         if self.bed.is_some() {
             let allowed = "must be left out: beds are made of spheres";
             return Err(document.reject("bed.scene", allowed));
-        }
-        Ok(())
-    }
-
-    /// That the particle is a sphere, as `what` needs it.
-    ///
-    /// # Errors
-    /// [`Error::Refused`] naming the shape.
-    pub fn of_a_sphere(&self, what: &str) -> Result<()> {
-        match self.shape {
-            Shape::Sphere => Ok(()),
-            shape => Err(Error::Refused {
-                what: format!("{}: `particle.shape`", self.path.display()),
-                found: format!("\"{}\"", shape.name()),
-                allowed: format!(
-                    "{what} needs a sphere; `impactlaw impact` runs a {}",
-                    shape.name()
-                ),
-            }),
-        }
-    }
-
-    /// That the particle is a sphere and meets a frictionless wall along its normal, as `what` needs it.
-    ///
-    /// # Errors
-    /// [`Error::Refused`] naming the shape, the angle or the friction.
-    pub fn of_a_normal_impact(&self, what: &str) -> Result<()> {
-        self.of_a_sphere(what)?;
-        for (key, found) in [
-            ("impact.angle", self.angle.to_degrees()),
-            ("wall.friction", self.friction),
-        ] {
-            if found != 0.0 {
-                return Err(Error::Refused {
-                    what: format!("{}: `{key}`", self.path.display()),
-                    found: significant(found, 6),
-                    allowed: format!(
-                        "must be 0: {what} needs a normal impact on a frictionless wall; `impactlaw impact` and `study` run this one"
-                    ),
-                });
-            }
         }
         Ok(())
     }
