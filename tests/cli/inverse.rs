@@ -171,7 +171,7 @@ fn what_cannot_be_used_is_one_clear_error_and_nothing_is_written() {
     std::fs::write(here.join("oblique.toml"), oblique).unwrap();
     let output = impactlaw(here, &["inverse", "m.csv", "--case", "oblique.toml"]);
     assert_eq!(output.status.code(), Some(2), "{}", message(&output));
-    assert!(message(&output).contains("normal impact of a sphere"));
+    assert!(message(&output).contains("impact.angle"));
     assert!(!here.join("out").exists());
 }
 
