@@ -63,7 +63,10 @@
     const { scale, x, y } = frame(w, h);
     pen.fillStyle = ink("--line");
     pen.fillRect(0, y, w, 6);
-    const surface = placesOf(now, "surface");
+    const [places, surface] = [placesOf(now, "places"), placesOf(now, "surface")];
+    // in three dimensions the surface that may meet the wall is known alone
+    const top = (counts) => { let most = 0; for (let i = 1; i < counts.length; i += 3) most = Math.max(most, counts[i]); return most; };
+    const whole = surface.length > 0 && top(surface) >= top(places);
     const outline = new Path2D();
     for (const side of sides) {
       for (let i = 0, n = surface.length / 3; i < n; i++) {
@@ -71,16 +74,15 @@
         // points of the surface end beside the axis
         if (i === 0) outline.moveTo(film.mirrored ? x : x + r * scale, y - z * scale);
         outline.lineTo(x + side * r * scale, y - z * scale);
-        if (i === n - 1 && film.mirrored) outline.lineTo(x, y - z * scale);
+        if (i === n - 1 && film.mirrored && whole) outline.lineTo(x, y - z * scale);
       }
     }
-    const places = placesOf(now, "places");
     const levels = film.scales.length ? levelsOf(now, quantity) : null;
     const plain = ink("--accent");
     pen.save();
-    if (surface.length) pen.clip(outline);
+    if (whole) pen.clip(outline);
     // points stand for patches that may be oblong: wide ones first close the gaps between them
-    for (const share of [2.6, 1.08]) {
+    for (const share of [whole ? 2.6 : 1.4, 1.08]) {
       for (let i = 0, n = places.length / 3; i < n; i++) {
         const r = places[3 * i] * step + film.low[0], z = places[3 * i + 1] * step + film.low[1];
         const size = Math.max(places[3 * i + 2] * step * scale * share, 1);
