@@ -149,7 +149,7 @@ fn the_page_of_a_film_draws_the_particle_and_follows_every_control() {
         "{told}"
     );
     assert!(
-        told["near"]["ruler"].as_str().unwrap().ends_with('m'),
+        told["near"]["ruler"].as_str().unwrap().ends_with("µm"),
         "{told}"
     );
     assert_eq!(told["play"], "Pause");

@@ -50,10 +50,10 @@
   /** Pixels a metre, and where the wall meets the axis. */
   const frame = (w, h) => {
     // on a narrow screen curve and legend stand above and below the particle, not beside it
-    const narrow = w <= 640;
+    const narrow = w <= 640 && h >= 620;
     const foot = document.querySelector(".controls").offsetHeight + 40 + (narrow ? $("legend").offsetHeight + 10 : 0);
     const head = narrow ? curve.offsetTop + curve.offsetHeight + 10 : 60;
-    const scale = 0.86 * Math.min(w / broad, (h - foot - head) / film.edge) * eye.zoom;
+    const scale = 0.86 * Math.min(w / broad, Math.max(h - foot - head, 0.3 * h) / film.edge) * eye.zoom;
     const middle = film.mirrored ? 0 : film.low[0] + 0.5 * film.edge;
     return { scale, x: 0.5 * w + eye.x - middle * scale, y: h - foot - 26 + eye.y };
   };
