@@ -65,6 +65,9 @@ impl Command for ImpactArgs {
             Asked::RigidWall(case) => case,
             Asked::Pair(pair) => return self.of_pair(&pair, interval, context),
         };
+        if self.repeats.is_some() {
+            case.of_a_normal_impact("--repeats")?;
+        }
         let out = output_folder(self.out.as_deref(), &case.name)?;
         context.open_log(&out, "impact", &case.hash);
         context

@@ -140,7 +140,8 @@ fn simulated(
         }
     }
     let mut seconds = started.elapsed().as_secs_f64();
-    let units = ReferenceUnits::of(material, radius);
+    // a film shows the run, at the moments of the curve that is brought back from it
+    let moment = ReferenceUnits::of(material, radius).time() * plan.similarity().time();
     let finished = |record: Record| {
         let wall = record.seconds_before + std::mem::take(&mut seconds);
         let impact = record.impact(material, radius, plan, wall);
@@ -150,7 +151,7 @@ fn simulated(
             rebound: record.rebound.map(material, radius),
             film: Film {
                 pictures: (record.film.iter())
-                    .map(|(time, picture)| (time * units.time(), picture.map(material, radius)))
+                    .map(|(time, picture)| (time * moment, picture.map(material, radius)))
                     .collect(),
             },
             memory_bytes: record.memory_bytes,

@@ -133,7 +133,8 @@ fn what_no_law_holds_for_is_refused_by_name_before_the_first_step_and_nothing_is
     );
     let oblique = STEEL.replace("[accuracy]", "angle = \"60 deg\"\n[accuracy]");
     let rough = format!("{STEEL}[wall]\nfriction = 0.3\n");
-    let cases: [(&str, &[&str], &str); 14] = [
+    let again = ["impact", "c.toml", "--repeats", "2"];
+    let cases: [(&str, &[&str], &str); 17] = [
         (COPPER, &["run", "c.toml"], "`reference_rate`"),
         (COPPER, &["fit", "c.toml"], "`reference_rate`"),
         (&bar, &["run", "c.toml"], "\"cylinder\""),
@@ -150,6 +151,9 @@ fn what_no_law_holds_for_is_refused_by_name_before_the_first_step_and_nothing_is
             "`impact.angle`",
         ),
         (&rough, &["run", "c.toml"], "`wall.friction`: found 0.3"),
+        (&bar, &again, "\"cylinder\""),
+        (&oblique, &again, "`impact.angle`"),
+        (&rough, &again, "`wall.friction`"),
         (&rough, &["theory", "hertz", "c.toml"], "`wall.friction`"),
         (
             &rough,
