@@ -5,10 +5,12 @@ use crate::document::keys::{Kind, Value as _, key, keys, names, table};
 use crate::document::range;
 use crate::material::flow::{FlowConstants, InText, WithFlow};
 use crate::material::{Flow, Material};
+use crate::scheme::preset::Method;
 use crate::shape::Shape;
 use crate::unit::{self, Angle, Density, Length, Pressure, Quantity, Velocity};
 use crate::{Error, Result};
 use named::Given;
+use scheme::SchemeTable;
 use serde::Deserialize;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
@@ -16,6 +18,7 @@ use wall::WallTable;
 
 pub mod named;
 pub mod pair;
+pub(crate) mod scheme;
 mod scope;
 pub(crate) mod slips;
 mod wall;
@@ -43,6 +46,8 @@ pub struct Case {
     pub friction: f64,
     /// Accuracy asked for, relative, on F*, delta* and e.
     pub tolerance: f64,
+    /// Published method to run instead of the crate's own.
+    pub method: Option<Method>,
     /// Bed scene to run with the law, resolved against the case file's folder.
     pub bed: Option<PathBuf>,
 }
@@ -58,6 +63,7 @@ struct CaseFile {
     impact: ImpactTable,
     wall: Option<WallTable>,
     accuracy: AccuracyTable,
+    scheme: Option<SchemeTable>,
     bed: Option<BedTable>,
 }
 
@@ -68,6 +74,7 @@ keys! {
         impact: table("speeds"),
         wall: table("the wall: rigid with friction, or deformable").or("rigid and frictionless"),
         accuracy: table("what the run is planned for"),
+        scheme: table("a published method in place of the crate's own").or("the crate's own"),
         bed: table("a bed that `run` ends with").or("none"),
         unusual: key("values that look like a slip of a unit and are meant all the same", "`particle.radius`, `impact.velocities`, `wall.radius`, or a number of `[material]` or `[wall.material]` as `material.density`", "['particle.radius']").or("none"),
     }
@@ -238,9 +245,13 @@ impl Case {
             angle: file.impact.angle(document)?,
             friction,
             tolerance: document.within("accuracy.tolerance", file.accuracy.tolerance)?,
+            method: file.scheme.map(|s| s.check(document)).transpose()?,
             bed: file.bed.map(|bed| bed.check(document)).transpose()?,
         };
         case.check_cylinder(document)?;
+        if let Some((key, allowed)) = case.beyond_preset(target.is_some()) {
+            return Err(document.reject(&key, allowed));
+        }
         slips::check(&case, &written, document, &file.unusual, target.is_some())?;
         Ok((case, target, file.unusual))
     }
@@ -315,6 +326,7 @@ impl Case {
             angle: 0.0,
             friction: 0.0,
             tolerance,
+            method: None,
             bed: None,
         })
     }

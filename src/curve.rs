@@ -8,10 +8,11 @@ use crate::{Error, Result};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
+pub mod files;
 pub mod film;
 mod tables;
 
-pub use tables::{Cylinder, Heating, Tangential, Target};
+pub use tables::{Cylinder, Heating, SchemeFigures, Tangential, Target};
 
 /// One output interval of an impact. Field names are the CSV header (file contract).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -127,6 +128,9 @@ pub struct Summary {
     /// The second body of an impact of two; absent on a rigid wall.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub target: Option<Target>,
+    /// Published method that it was run by; absent where it is the crate's own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scheme: Option<SchemeFigures>,
     /// Whose impact it is; absent from files of versions before 0.2.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub particle: Option<Particle>,

@@ -1,6 +1,9 @@
 //! Scheme: the choices that make one material point method differ from another, and their names.
 //!
-//! [`Scheme::default`] is what this crate uses. The others exist to be compared with it (`impactlaw cost`).
+//! [`Scheme::default`] is what this crate uses. The others exist to be compared with it (`impactlaw cost`), and are asked for by the
+//! name of a [`preset::Preset`].
+
+pub mod preset;
 
 /// How velocity lives between steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,9 +25,24 @@ pub enum Layout {
     /// Square (in three dimensions cubic) lattice of this many points a diameter, kept where they lie inside the sphere; the
     /// outermost touch the wall as discs of the lattice's spacing.
     Lattice(f64),
+    /// The lattice of the thesis: a point in the centre of the sphere, as many points as its table 3-1 prints for so many a
+    /// diameter, of equal masses that sum to the sphere's; the outermost touch the wall as spheres of the points' distance. Equal cells
+    /// reach a point beyond the body all around.
+    Centred(f64),
 }
 
 impl Layout {
+    /// Breakpoints of equal cells of size `cell` to both sides of the centre, of a lattice with a point there: out to a point beyond
+    /// the body. None of other layouts.
+    #[must_use]
+    pub fn around_centre(&self, cell: f64) -> Option<Vec<f64>> {
+        let Layout::Centred(count) = self else {
+            return None;
+        };
+        let half = ((1.0 + 2.0 / count) / cell - 1e-9).ceil() as i32;
+        Some((-half..=half).map(|k| f64::from(k) * cell).collect())
+    }
+
     /// Length of a grid of cells of size `cell` that covers `length`: of a lattice a whole number of cells, so that the ratio of
     /// cell to spacing is the one asked for; a fitted grid is scaled to end with the body.
     #[must_use]
@@ -32,7 +50,7 @@ impl Layout {
         match self {
             Layout::Fitted => length,
             // a cell that is full but for rounding is full
-            Layout::Lattice(_) => cell * (length / cell - 1e-9).ceil(),
+            Layout::Lattice(_) | Layout::Centred(_) => cell * (length / cell - 1e-9).ceil(),
         }
     }
 }

@@ -96,6 +96,7 @@ impl Study {
             unusual: &file.unusual,
             seed: file.seed.unwrap_or(0),
             samples: &samples,
+            method: (file.scheme.map(|s| s.check(document))).transpose()?,
         };
         lists.check_count(&blocks)?;
         let mut cases = Vec::new();
@@ -168,6 +169,7 @@ pub fn scaled(summary: &Summary, from: &ReferenceUnits, to: &Case) -> Summary {
         residual_displacement_m: summary.residual_displacement_m * length,
         contact_time_s: summary.contact_time_s * time,
         tangential,
+        scheme: (summary.scheme.as_ref()).map(|scheme| scheme.scaled(time, force, length)),
         particle: Some(Particle::of(&to.material, to.radius)),
         ..summary.clone()
     }

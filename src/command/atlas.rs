@@ -59,6 +59,7 @@ impl Command for AtlasArgs {
         let folder = study_folder(self.runs.as_deref(), &study);
         for case in &study.cases {
             case.of_a_normal_impact("the atlas")?;
+            case.of_own_scheme("the atlas")?;
         }
         let (out, _shards) = whole(&folder, &study)?;
         context.open_log(&out, "atlas", &study.hash);

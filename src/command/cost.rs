@@ -1,21 +1,25 @@
 //! Cost command: runs the ladders of a case one after the other and shows error against time; finished runs are kept.
 
-use super::{Command, Context, Verdict, output_folder, print, print_json};
+use super::{Command, Context, Verdict, output_folder, print, print_json, show};
 use crate::case::Case;
 use crate::cost::accuracy;
-use crate::cost::thesis::{self, Comparison};
+use crate::cost::chapter::{self, Chapter, Done};
+use crate::cost::thesis::{self, Comparison, SETTINGS};
 use crate::cost::{Effort, Finished, Footprint, Pulse, Row, Rung, Summary, mark_front, rungs};
 use crate::curve::{Impact, Status};
 use crate::files::{Sum, sha256, sum_of, with_sum, write_atomic, write_rows};
 use crate::impact::simulate;
-use crate::plan::severity;
+use crate::plan::{Geometry, severity};
 use crate::report::chart::{Chart, Mark, Series};
 use crate::report::figure::Figure;
+use crate::report::page::Block;
 use crate::report::palette::Role;
 use crate::report::scale::Axis;
+use crate::scheme::TimeStep;
 use crate::unit::{self, Time, significant};
 use crate::{Error, Result};
 use clap::Args;
+use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 
 /// Show what accuracy costs: ladders over grid, points, time step and scheme; errors against wall time.
@@ -29,12 +33,16 @@ pub struct CostArgs {
     /// Coarse ladders only: less than a minute.
     #[arg(long)]
     pub quick: bool,
+    /// The thesis' chapter 3 as one page, `chapter_3.html`: its fifteen cases, tables 3-1 to 3-4 and figures beside its own; on all
+    /// threads, for `cases/thesis-3.toml`.
+    #[arg(long, conflicts_with_all = ["quick", "ladder", "json"])]
+    pub chapter_3: bool,
     /// Ladders to run beside the reference, selected by the start of their names, e.g. `--ladder cells` (default: all).
     #[arg(long)]
     pub ladder: Vec<String>,
-    /// Skip runs predicted to take longer than this.
-    #[arg(long, default_value = "2 min")]
-    pub longest: String,
+    /// Skip runs predicted to take longer than this (default: 2 min; with `--chapter-3` none is skipped).
+    #[arg(long)]
+    pub longest: Option<String>,
     /// Output folder (default: `out/<case name>`); files go to `cost` in it, and finished runs are kept there.
     #[arg(short, long)]
     pub out: Option<PathBuf>,
@@ -47,6 +55,7 @@ impl Command for CostArgs {
     const EXAMPLES: &'static [&'static str] = &[
         "impactlaw cost cases/thesis-4-4.toml --quick",
         r#"impactlaw cost cases/thesis-4-4.toml --velocity "10 m/s" --ladder cells"#,
+        "impactlaw cost cases/thesis-3.toml --chapter-3",
     ];
 
     /// Run the ladders of every speed asked for; write `cost.csv`, `cost.md` and the figures.
@@ -58,7 +67,13 @@ impl Command for CostArgs {
     fn run(&self, context: &Context) -> Result<Verdict> {
         let case = Case::read(&self.case)?.with_velocities(&self.velocity)?;
         case.of_a_normal_impact("a ladder of settings")?;
-        let longest = unit::argument::<Time>("--longest", &self.longest)?;
+        case.of_own_scheme("a ladder of settings")?;
+        let longest = (self.longest.as_deref())
+            .map(|text| unit::argument::<Time>("--longest", text))
+            .transpose()?;
+        if self.chapter_3 {
+            check_chapter(&case)?;
+        }
         let claim = output_folder(self.out.as_deref(), &case.name)?;
         context.open_log(&claim, "cost", &case.hash);
         let out = claim.join("cost");
@@ -75,8 +90,15 @@ impl Command for CostArgs {
                 provenance: context.provenance(&case.hash),
                 quiet: context.quiet,
             };
-            let rows = job.run(self, longest, context)?;
+            if self.chapter_3 {
+                job.chapter(longest, context)?;
+                continue;
+            }
+            let rows = job.run(self, longest.unwrap_or(LONGEST), context)?;
             lines.extend(accuracy::lines(&rows, severity(&case.material, velocity)));
+        }
+        if self.chapter_3 {
+            return Ok(Verdict::Met);
         }
         let provenance = context.provenance(&case.hash);
         write_rows(&out.join("cost_accuracy.csv"), &provenance, &lines)?;
@@ -88,6 +110,23 @@ impl Command for CostArgs {
             false => context.say(&text)?,
         }
         Ok(Verdict::Met)
+    }
+}
+
+/// Runs predicted to take longer than this are skipped unless the user says otherwise, s.
+const LONGEST: f64 = 120.0;
+
+/// That a case is the one of the thesis' chapter 3.
+fn check_chapter(case: &Case) -> Result<()> {
+    match case.velocities[..] {
+        [velocity] if thesis::is_its_case(case, velocity) => Ok(()),
+        _ => Err(Error::Argument {
+            argument: "--chapter-3".to_owned(),
+            found: case.path.display().to_string(),
+            allowed:
+                "is for the sphere of the thesis' section 3.5 at 1 m/s alone: cases/thesis-3.toml"
+                    .to_owned(),
+        }),
     }
 }
 
@@ -159,6 +198,87 @@ impl Job<'_> {
         Ok(rows)
     }
 
+    /// The thesis' chapter 3: all its runs, the longest first, then table, page and plots.
+    fn chapter(&self, longest: Option<f64>, context: &Context) -> Result<()> {
+        let (mut wanted, skipped): (Vec<_>, Vec<_>) = chapter::wanted(self.case, self.velocity)
+            .into_iter()
+            .partition(|one| {
+                let short = longest.is_none_or(|longest| one.rung.plan.seconds <= longest);
+                short || self.folder(&one.rung).join("summary.json").is_file()
+            });
+        for one in &skipped {
+            tracing::warn!(
+                "left out, for it takes {:.0} s: {}: {}",
+                one.rung.plan.seconds,
+                one.rung.ladder,
+                one.rung.name
+            );
+        }
+        wanted.sort_by(|a, b| b.rung.plan.seconds.total_cmp(&a.rung.plan.seconds));
+        let bar = context.progress(wanted.len() as u64, "chapter 3");
+        let unit = self.case.unit_of_time();
+        let runs = wanted
+            .par_iter()
+            .with_max_len(1)
+            .map(|one| {
+                let done = self.finished(&one.rung)?;
+                bar.inc(1);
+                tracing::info!(
+                    "{}: {} in {:.1} s (predicted {:.1} s)",
+                    one.rung.ladder,
+                    one.rung.name,
+                    done.footprint.cpu_s,
+                    one.rung.plan.seconds
+                );
+                Ok(Done {
+                    place: one.case,
+                    time_step: match one.rung.plan.scheme.time_step {
+                        TimeStep::Fixed(dt) => dt * unit,
+                        TimeStep::Stable => f64::NAN,
+                    },
+                    impact: done.impact,
+                    cpu_s: done.footprint.cpu_s,
+                })
+            })
+            .collect::<Result<Vec<Done>>>();
+        bar.finish_and_clear();
+        let mut runs = runs?;
+        // in the order of the thesis, not in that of the clock
+        let order = |done: &Done| {
+            done.place.map(|place| {
+                let solid = place.geometry != Geometry::Quarter;
+                let setting = SETTINGS.iter().position(|s| s.name == place.setting.name);
+                (solid, place.nth, setting)
+            })
+        };
+        runs.sort_by_key(order);
+        if let Some(reference) = runs.iter().find(|run| run.place.is_none()) {
+            check(&reference.impact)?;
+        }
+        let johnson = Pulse::hertz(self.case, self.velocity);
+        let chapter = Chapter {
+            runs: &runs,
+            johnson: &johnson,
+        };
+        write_rows(
+            &self.out.join("chapter_3.csv"),
+            &self.provenance,
+            &chapter.rows(),
+        )?;
+        let page =
+            super::on_a_worker(|| show::chapter::page(self.case, &chapter, &self.provenance))?;
+        for block in page.sections.iter().flat_map(|section| &section.blocks) {
+            if let Block::Figures(figures) = block {
+                for figure in figures {
+                    figure.write(&self.out.join("plots"))?;
+                }
+            }
+        }
+        let path = self.out.join("chapter_3.html");
+        write_atomic(&path, page.html().as_bytes())?;
+        context.say(&format!("{}\n-> {}\n", page.summary, path.display()))
+    }
+
     /// Folder of a run, named after all that decides its outcome.
     fn folder(&self, rung: &Rung) -> PathBuf {
         let text = format!(
@@ -168,7 +288,7 @@ impl Job<'_> {
             self.case.radius,
             rung.plan.grid,
             rung.plan.scheme,
-            (rung.plan.geometry, rung.plan.estimate),
+            (rung.plan.geometry, rung.plan.estimate, rung.plan.ring_time),
             rung.plan.velocity
         );
         let hash = sha256([text]);

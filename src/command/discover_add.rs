@@ -1,7 +1,7 @@
 //! `discover --add`: more runs where the formulas that were found disagree most, kept in the store of the study.
 
 use super::study_runs::{queue, simulated, whole};
-use super::study_table::rows_of;
+use super::study_table::{SCHEME, rows_of};
 use super::{Context, Verdict};
 use crate::case::Case;
 use crate::curve::Status;
@@ -53,6 +53,12 @@ pub fn cases(table: &Table, candidates: &Candidates, chosen: &[usize]) -> Result
             let allowed = "--add makes normal impacts of perfectly plastic or linearly hardening bodies on a frictionless wall";
             return Err(refuse("inputs", format!("`{}`", column.name), allowed));
         }
+    }
+    let text = std::fs::read_to_string(&table.path).map_err(Error::file("read", &table.path))?;
+    let first = text.lines().next().unwrap_or_default();
+    if first.starts_with('#') && first.contains(SCHEME) {
+        let allowed = "--add runs the crate's own scheme, whose impacts must not stand among those of another";
+        return Err(refuse("scheme", "results of a preset".to_owned(), allowed));
     }
     let mut all = Vec::new();
     for (number, &row) in chosen.iter().enumerate() {

@@ -189,6 +189,16 @@ fn check_owner(impact: &Impact, path: &Path, velocity: f64, case: &Case) -> Resu
     if !differences.is_empty() {
         return refuse(differences.join(", "));
     }
+    let asked = case.method.map(|method| method.to_string());
+    let made = summary.scheme.as_ref().map(|scheme| &scheme.settings);
+    if made != asked.as_ref() {
+        let own = "the crate's own scheme".to_owned();
+        return refuse(format!(
+            "an impact by {}; the case asks for {}",
+            made.unwrap_or(&own),
+            asked.as_ref().unwrap_or(&own)
+        ));
+    }
     if (summary.velocity_m_s / velocity - 1.0).abs() > 1e-12 {
         return refuse(format!("a speed of {} m/s", summary.velocity_m_s));
     }

@@ -67,6 +67,10 @@ impl Command for ImpactArgs {
         };
         if self.repeats.is_some() {
             case.of_a_normal_impact("--repeats")?;
+            case.of_own_scheme("--repeats")?;
+        }
+        if self.film.is_some() {
+            case.of_own_scheme("--film")?;
         }
         let out = output_folder(self.out.as_deref(), &case.name)?;
         context.open_log(&out, "impact", &case.hash);

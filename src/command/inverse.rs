@@ -252,6 +252,7 @@ impl InverseArgs {
             None => self.material.case("arguments", self.tolerance, None, &[])?,
         };
         case.of_a_normal_impact("the atlas")?;
+        case.of_own_scheme("the atlas")?;
         let mut hardening = 0.0;
         for (constant, value) in case.material.flow.iter().flat_map(Flow::constants) {
             match constant {

@@ -45,6 +45,7 @@ impl Command for PredictArgs {
     fn run(&self, _context: &Context) -> Result<Verdict> {
         let case = Case::read(&self.case)?.with_velocities(&self.velocity)?;
         case.of_a_sphere("an equation")?;
+        case.of_own_scheme("an equation")?;
         let file = EquationsFile::read(&self.equation)?;
         print(&self.table(&case, &file)?)?;
         Ok(Verdict::Met)

@@ -86,6 +86,9 @@ impl Command for StudyArgs {
 impl StudyRunArgs {
     fn run(&self, context: &Context) -> Result<Verdict> {
         let study = planned(&self.study)?;
+        if let Some(case) = study.cases.first().filter(|_| self.refine > 0) {
+            case.of_own_scheme("--refine")?;
+        }
         let interval = interval(&self.checkpoint)?;
         let shard = self.shard.as_deref().map(Shard::read).transpose()?;
         let folder = study_folder(self.out.as_deref(), &study);

@@ -77,6 +77,8 @@ pub fn check_owner(out: &Path, study: &Study) -> Result<()> {
     }
 }
 
+/// What stands before the published method in the provenance of results that were made by one.
+pub const SCHEME: &str = "; scheme preset ";
 /// What stands before the name of the study in the provenance of its results.
 const STUDY: &str = "; impactlaw study ";
 
@@ -101,8 +103,10 @@ fn provenance(study: &Study) -> String {
     let file = study.cases.first().and_then(|case| case.path.file_name());
     let file = file.unwrap_or_default().to_string_lossy();
     let hash = &study.hash;
+    let method = study.cases.first().and_then(|case| case.method);
+    let scheme = method.map_or_else(String::new, |method| format!("{SCHEME}{method}"));
     format!(
-        "{PROGRAM}; case sha256 {hash}{STUDY}{}",
+        "{PROGRAM}; case sha256 {hash}{scheme}{STUDY}{}",
         file.escape_default()
     )
 }

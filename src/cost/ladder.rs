@@ -85,7 +85,7 @@ impl Ladder<'_> {
     /// The finest run: fine everywhere, one more point a direction. By the errors that the planner is calibrated on
     /// (2.4/n^2 with n cells a contact radius) it is right to 0.08 %, and to 0.3 % where little is tried. A body that is
     /// flattened costs too much for that: there it is the planned run with cells of 1/1.6 of the size.
-    fn reference(&self) -> Rung {
+    pub(super) fn reference(&self) -> Rung {
         if self.base.grid.remedies.is_large() {
             let cells = (1.6 * self.base.estimate.contact_radius / self.base.grid.fine).round();
             return self.rung(REFERENCE, format!("a/{cells}"), self.with_cells(cells));

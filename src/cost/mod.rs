@@ -1,6 +1,7 @@
 //! Cost: what accuracy costs in time. Ladders of settings for one impact, the errors of each, and the Pareto front.
 
 pub mod accuracy;
+pub mod chapter;
 mod ladder;
 mod pulse;
 mod relatives;

@@ -124,8 +124,9 @@ impl Pulse {
             .collect()
     }
 
-    /// Force and displacement at `time`, by linear interpolation.
-    fn at(&self, time: f64) -> (f64, f64) {
+    /// Force (N) and displacement (m) at `time` (s), by linear interpolation; free flight after loss of contact.
+    #[must_use]
+    pub fn at(&self, time: f64) -> (f64, f64) {
         let s = &self.samples;
         let k = s.partition_point(|x| x.0 < time);
         let Some(last) = s.last() else {

@@ -2,9 +2,10 @@
 
 use super::ladder::{Ladder, Rung};
 use super::thesis::{self, Setting};
-use crate::material::stress::Moduli;
-use crate::plan::{Geometry, Plan};
-use crate::scheme::{Layout, Reference, Scheme, TimeStep, Transfer};
+use crate::case::Case;
+use crate::plan::{Geometry, Plan, plan};
+use crate::scheme::preset::{Method, Preset, StepRule};
+use crate::scheme::{Layout, Reference, TimeStep, Transfer};
 use crate::unit::significant;
 
 /// Ladder of the thesis' scheme at its cheapest: a lattice in three dimensions, cubic splines, one point a cell, FLIP, the
@@ -14,6 +15,9 @@ pub const CUBIC_LATTICES: &str = "lattice, 3-D, degree 3, 1 point a cell, FLIP";
 /// Ladder of what most material point codes do: a lattice in three dimensions, linear functions, eight points a cell, FLIP,
 /// the largest stable step.
 pub const LINEAR_LATTICES: &str = "lattice, 3-D, degree 1, 8 points a cell, FLIP";
+
+/// Time after loss of contact of the thesis' runs over that of others: e is that of the centre of mass, which nothing changes then.
+const RING_SHARE: f64 = 0.25;
 
 /// Cell over spacing of lattices that fill every cell: two points a direction.
 const FULL_RATIO: f64 = 2.0;
@@ -76,8 +80,9 @@ impl Ladder<'_> {
                     plan.scheme.transfer = transfer;
                     plan.scheme.reference = reference;
                     if reference == Reference::Present {
-                        plan.scheme.time_step =
-                            TimeStep::Fixed(0.1 * self.crossing(plan.grid.fine));
+                        plan.scheme.time_step = TimeStep::Fixed(
+                            0.1 * self.case.crossing(plan.velocity, plan.grid.fine),
+                        );
                     }
                     let ladder = format!("lattice, degree {degree}, {name}");
                     all.push(self.rung(&ladder, format!("{count} a diameter"), plan));
@@ -107,18 +112,6 @@ impl Ladder<'_> {
         plan.grid.fine_depth = 2.0;
         plan.scheme.layout = Layout::Lattice(count);
         plan
-    }
-
-    /// c0, m/s.
-    fn bar_speed(&self) -> f64 {
-        (self.case.material.young_modulus / self.case.material.density).sqrt()
-    }
-
-    /// Time in which a dilatational wave and the body cross a cell, R/c0 (thesis, equation 3-27).
-    fn crossing(&self, cell: f64) -> f64 {
-        let material = &self.case.material;
-        let wave = Moduli::new(1.0, material.poisson_ratio).dilatational_speed(1.0);
-        cell / (wave + self.base.velocity / self.bar_speed())
     }
 
     /// Lattices in three dimensions with FLIP and the largest stable step: the thesis' scheme, and linear functions with
@@ -155,26 +148,25 @@ impl Ladder<'_> {
         all
     }
 
-    /// Settings of the thesis (tables 3-1 and 3-2): lattice, cubic splines, FLIP, fixed step; in the section, and in three
-    /// dimensions with two planes of symmetry.
+    /// Settings of the thesis (tables 3-1 and 3-2) by its preset; in the section, and in three dimensions with two planes of symmetry.
     ///
-    /// Its step is 0.1, 0.01 or 0.001 of the power of ten (in seconds) below the smallest cell's crossing time.
+    /// Its step is 0.1, 0.01 or 0.001 of the power of ten (in seconds) below the smallest cell's crossing time, for all settings.
     pub(super) fn thesis(&self) -> Vec<Rung> {
-        let unit = self.case.radius / self.bar_speed();
+        let unit = self.case.unit_of_time();
         let least = (thesis::SETTINGS.iter())
-            .map(|s| self.crossing(s.cell()) * unit)
+            .map(|s| self.case.crossing(self.base.velocity, s.cell()))
             .fold(f64::INFINITY, f64::min);
-        let order = 10f64.powf(least.log10().floor()) / unit;
         let mut all = Vec::new();
         for geometry in [Geometry::Axisymmetric, Geometry::Quarter] {
             for (nth, multiplier) in thesis::MULTIPLIERS.into_iter().enumerate() {
                 for setting in &thesis::SETTINGS {
-                    if self.is_quick() && (nth > 0 || setting.count > 25.0) {
+                    if self.is_quick() && (nth > 0 || setting.count > 25) {
                         continue;
                     }
-                    let dt = multiplier * order;
-                    let mut plan = self.preset(setting, dt);
-                    plan.geometry = geometry;
+                    let Some(dt) = StepRule::OfOrder(multiplier).fixed(least, unit) else {
+                        continue;
+                    };
+                    let plan = self.preset(setting, dt, geometry);
                     let step = significant(dt * unit * 1e9, 3);
                     let name = format!("{}, {step} ns", setting.name);
                     all.push(self.rung(&thesis::ladder(geometry, nth), name, plan));
@@ -184,15 +176,26 @@ impl Ladder<'_> {
         all
     }
 
-    /// A setting of the thesis with the fixed step `dt`.
-    fn preset(&self, setting: &Setting, dt: f64) -> Plan {
-        let mut plan = self.lattice(setting.count, setting.ratio);
-        plan.grid.degree = 3;
-        plan.scheme = Scheme {
-            transfer: Transfer::Blend(1.0),
-            time_step: TimeStep::Fixed(dt),
-            ..plan.scheme
+    /// A setting of the thesis with the fixed step `dt`. Its runs end when contact is lost; here a little later.
+    fn preset(&self, setting: &Setting, dt: f64, geometry: Geometry) -> Plan {
+        let crossing = self.case.crossing(self.base.velocity, setting.cell());
+        let method = Method {
+            filling: Some(setting.filling()),
+            step: StepRule::OfCrossing(dt / crossing),
+            dimensions: match geometry {
+                Geometry::Axisymmetric => 2,
+                _ => 3,
+            },
+            ..Preset::Thesis.usual()
         };
-        plan
+        let case = Case {
+            method: Some(method),
+            ..self.case.clone()
+        };
+        let plan = plan(&case, self.base.velocity);
+        Plan {
+            ring_time: RING_SHARE * plan.ring_time,
+            ..plan
+        }
     }
 }

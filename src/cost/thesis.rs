@@ -6,7 +6,9 @@
 
 use super::{Pulse, Row};
 use crate::case::Case;
+use crate::impact::lattice_points;
 use crate::plan::Geometry;
+use crate::scheme::preset::Filling;
 use crate::unit::rounded;
 use std::fmt::Write;
 
@@ -16,7 +18,7 @@ pub struct Setting {
     /// Name: material points per element and element size, in those of the first.
     pub name: &'static str,
     /// Points a diameter.
-    pub count: f64,
+    pub count: u32,
     /// Element size over distance of the points.
     pub ratio: f64,
     /// Points of the whole sphere.
@@ -31,7 +33,16 @@ impl Setting {
     /// Element size, R.
     #[must_use]
     pub fn cell(&self) -> f64 {
-        self.ratio * 2.0 / self.count
+        self.filling().cell()
+    }
+
+    /// Lattice and cells.
+    #[must_use]
+    pub fn filling(&self) -> Filling {
+        Filling {
+            points: self.count,
+            ratio: self.ratio,
+        }
     }
 }
 
@@ -42,10 +53,10 @@ pub const RATIO: f64 = 1.05;
 pub const MULTIPLIERS: [f64; 3] = [0.1, 0.01, 0.001];
 
 /// The five settings; with three time steps each they are the fifteen cases.
-pub const SETTINGS: [Setting; 5] = [
+pub static SETTINGS: [Setting; 5] = [
     Setting {
         name: "MP/ES",
-        count: 50.0,
+        count: 50,
         ratio: RATIO,
         points: 74_227,
         minutes: [Some(3.0), Some(28.0), Some(261.0)],
@@ -53,7 +64,7 @@ pub const SETTINGS: [Setting; 5] = [
     },
     Setting {
         name: "2MP/ES",
-        count: 62.0,
+        count: 62,
         ratio: 1.3,
         points: 137_963,
         minutes: [Some(5.0), Some(46.0), Some(449.0)],
@@ -61,7 +72,7 @@ pub const SETTINGS: [Setting; 5] = [
     },
     Setting {
         name: FINEST,
-        count: 80.0,
+        count: 80,
         ratio: 1.68,
         points: 290_245,
         minutes: [Some(10.0), Some(93.0), Some(864.0)],
@@ -69,7 +80,7 @@ pub const SETTINGS: [Setting; 5] = [
     },
     Setting {
         name: "MP/2ES",
-        count: 25.0,
+        count: 25,
         ratio: RATIO,
         points: 9_357,
         minutes: [None, Some(3.0), Some(32.0)],
@@ -77,7 +88,7 @@ pub const SETTINGS: [Setting; 5] = [
     },
     Setting {
         name: "MP/4ES",
-        count: 13.0,
+        count: 13,
         ratio: RATIO,
         points: 1_513,
         minutes: [None, None, Some(4.0)],
@@ -85,7 +96,10 @@ pub const SETTINGS: [Setting; 5] = [
     },
 ];
 
-const FINEST: &str = "4MP/ES";
+/// Setting that table 3-3 compares the others with.
+pub(super) const FINEST: &str = "4MP/ES";
+/// Time from one output file to the next, s (section 3.5.1).
+pub const INTERVAL: f64 = 150e-6;
 /// Output files of a run: "24 or 25".
 const OUTPUTS: f64 = 24.5;
 
@@ -153,8 +167,7 @@ impl Comparison<'_> {
         }
         format!(
             "\n## The thesis' fifteen cases (its tables 3-1 and 3-4)\n\nPrinted times: minutes an output file times \
-             {OUTPUTS} files. Runs in three dimensions hold a quarter of the sphere; a lattice here keeps the points whose \
-             centre lies inside it, the thesis' holds 8 to 30 % more. Errors are relative to the finest run, MAE to \
+             {OUTPUTS} files. Runs in three dimensions hold a quarter of the sphere. Errors are relative to the finest run, MAE to \
              Johnson.\n\n| setting | points, thesis | points of the whole sphere here | time, thesis | cpu s here | F* | delta* | e \
              | MAE F | MAE delta |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n{times}\n## The thesis' table 3-3: errors \
              against {FINEST} at the same time step\n\nThe thesis prints them for one time step that it does not name, \
@@ -175,7 +188,7 @@ impl Comparison<'_> {
         };
         let (place, whole) = match geometry {
             Geometry::Axisymmetric => ("section", "(section)".to_owned()),
-            _ => ("3-D", (4 * row.points).to_string()),
+            _ => ("3-D", lattice_points(f64::from(setting.count)).to_string()),
         };
         let percent = |x: f64| format!("{:.1} %", 100.0 * x);
         let of_hertz = |x: Option<f64>| x.map_or_else(String::new, |x| format!("{x:.3}"));

@@ -1,5 +1,6 @@
 //! Tables of `summary.json` that only some impacts have.
 
+use super::files::FromFiles;
 use super::number_or_null;
 use crate::material::MaterialTable;
 use serde::{Deserialize, Serialize};
@@ -89,4 +90,40 @@ pub struct Tangential {
     pub angular_velocity_rad_s: f64,
     /// Impulse along the wall over the normal impulse; the friction coefficient in full sliding.
     pub impulse_ratio: f64,
+}
+
+/// Published method that an impact was run by (table `scheme` of `summary.json`).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SchemeFigures {
+    /// Name of the preset.
+    pub preset: String,
+    /// All its settings in words; equal texts are equal methods.
+    pub settings: String,
+    /// Length of the steps, s; absent where it follows the stability limit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub time_step_s: Option<f64>,
+    /// Energy lost in transfers between points and grid over the incident energy.
+    #[serde(deserialize_with = "super::number_or_null")]
+    pub transfer_loss_ratio: f64,
+    /// What its output files say, as the thesis reads them; absent of presets without.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub files: Option<FromFiles>,
+}
+
+impl SchemeFigures {
+    /// The same impact in other units: factors of time, force and length.
+    #[must_use]
+    pub fn scaled(&self, time: f64, force: f64, length: f64) -> Self {
+        SchemeFigures {
+            time_step_s: self.time_step_s.map(|dt| dt * time),
+            files: self.files.map(|files| FromFiles {
+                interval_s: files.interval_s * time,
+                max_force_n: files.max_force_n * force,
+                max_displacement_m: files.max_displacement_m * length,
+                contact_time_s: files.contact_time_s * time,
+                ..files
+            }),
+            ..self.clone()
+        }
+    }
 }

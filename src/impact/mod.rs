@@ -25,6 +25,12 @@ use crate::plan::Plan;
 use crate::scheme::Scheme;
 use crate::tape::Checkpoint;
 
+/// Points of the whole sphere on the thesis' lattice of `count` a diameter.
+#[must_use]
+pub fn lattice_points(count: f64) -> usize {
+    points::lattice::Centred::solid(count).count()
+}
+
 /// What a simulated impact leaves: curve, figures and the particle at two moments.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Simulated {

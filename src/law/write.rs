@@ -101,6 +101,9 @@ impl LawFile {
             }
         }
         file.warnings = file.what_to_know(fit);
+        file.warnings.extend(case.method.map(|method| {
+            format!("the impacts are those of scheme preset {method}: the law follows that method, errors of the method and all")
+        }));
         file
     }
 

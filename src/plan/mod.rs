@@ -7,6 +7,7 @@ use crate::case::Case;
 use crate::material::Material;
 use crate::material::stress::Moduli;
 use crate::scheme::Scheme;
+use crate::scheme::preset::Method;
 use crate::shape::Shape;
 use crate::unit::significant;
 use crate::{Error, Result};
@@ -15,6 +16,7 @@ use std::f64::consts::PI;
 mod bar;
 mod effects;
 mod grid;
+mod method;
 pub mod pair;
 mod predict;
 mod similar;
@@ -82,6 +84,8 @@ pub struct Plan {
     pub grid: Grid,
     /// Method; another than the default only to be compared.
     pub scheme: Scheme,
+    /// Preset that the method comes from; none of the crate's own.
+    pub method: Option<Method>,
     /// Impacts of the same particle, one after the other.
     pub impacts: usize,
     /// Pictures of the particle in a contact time; 0: none are taken.
@@ -117,6 +121,7 @@ impl Plan {
             tolerance: case.tolerance,
             grid,
             scheme: Scheme::default(),
+            method: None,
             impacts: 1,
             pictures: 0,
             ring_time,
@@ -206,6 +211,9 @@ pub fn plans(case: &Case) -> Result<Vec<Plan>> {
         if let Some(allowed) = too_fine(case, velocity) {
             return refuse("accuracy.tolerance", case.tolerance.to_string(), allowed);
         }
+        if let Some([found, allowed]) = method::refusal(case, velocity) {
+            return refuse("scheme.preset", found, allowed);
+        }
         let plan = plan(case, velocity);
         if let Some([found, allowed]) = oversize(&plan) {
             return refuse("impact.velocities", found, allowed);
@@ -261,7 +269,8 @@ pub fn plan(case: &Case, velocity: f64) -> Plan {
     let asked = velocity;
     let shape = case.shape.over(case.radius);
     let slender = shape != Shape::Sphere;
-    let velocity = if plastic || slender || geometry != Geometry::Axisymmetric {
+    let as_asked = plastic || slender || geometry != Geometry::Axisymmetric;
+    let velocity = if as_asked || case.method.is_some() {
         asked
     } else {
         let expected = estimate(acting, asked * case.angle.cos()).displacement;
@@ -300,6 +309,10 @@ pub fn plan(case: &Case, velocity: f64) -> Plan {
         effects,
         plastic,
         ..Plan::of(case, asked, estimate, grid)
+    };
+    let plan = match case.method {
+        Some(method) => method::by(method, plan, case),
+        None => plan,
     };
     with_prediction(plan, material)
 }

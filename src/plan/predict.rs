@@ -10,6 +10,7 @@ use super::{Geometry, Plan, graded, severity};
 use crate::material::Material;
 use crate::scheme::{Layout, Reference, TimeStep, Transfer};
 use crate::shape::Shape;
+use std::f64::consts::PI;
 
 /// Point-steps a second and core of quadratic splines in the axisymmetric section, contact and outputs included.
 const THROUGHPUT: f64 = 5.5e7;
@@ -101,7 +102,7 @@ fn throughput(plan: &Plan) -> f64 {
         let lattice = [0.3, 0.2, 0.1][plan.grid.degree.clamp(1, 3) - 1];
         let share = match plan.scheme.layout {
             Layout::Fitted => 1.0,
-            Layout::Lattice(_) => lattice,
+            Layout::Lattice(_) | Layout::Centred(_) => lattice,
         };
         return SOLID_THROUGHPUT * share;
     }
@@ -114,7 +115,12 @@ fn throughput(plan: &Plan) -> f64 {
         Reference::Initial => 1.0,
         Reference::Present => 0.5,
     };
-    THROUGHPUT * degree * transfer * reference
+    let lattice = match plan.scheme.layout {
+        // about one point a cell, as above
+        Layout::Centred(_) => 0.4,
+        Layout::Fitted | Layout::Lattice(_) => 1.0,
+    };
+    THROUGHPUT * degree * transfer * reference * lattice
 }
 
 /// Material points that the grid will hold.
@@ -130,13 +136,22 @@ fn points(plan: &Plan) -> usize {
     if let Shape::Cylinder { .. } = grid.shape {
         return (across * up * side.powi(2)) as usize;
     }
+    // of a ball with points on its planes of symmetry, in their distance
+    let ball = |count: f64| (count / 2.0).floor() + 1.0;
     let points = match (plan.geometry, plan.scheme.layout) {
-        (Geometry::Quarter, Layout::Lattice(n)) => std::f64::consts::PI / 24.0 * n.powi(3),
-        (Geometry::Half, Layout::Lattice(n)) => std::f64::consts::PI / 12.0 * n.powi(3),
+        (Geometry::Axisymmetric, Layout::Centred(n)) => PI / 2.0 * ball(n).powi(2),
+        (Geometry::Quarter, Layout::Centred(n)) => {
+            PI / 3.0 * ball(n).powi(3) + PI / 2.0 * ball(n).powi(2)
+        }
+        (Geometry::Half, Layout::Centred(n)) => {
+            2.0 * PI / 3.0 * ball(n).powi(3) + PI / 2.0 * ball(n).powi(2)
+        }
+        (Geometry::Quarter, Layout::Lattice(n)) => PI / 24.0 * n.powi(3),
+        (Geometry::Half, Layout::Lattice(n)) => PI / 12.0 * n.powi(3),
         (Geometry::Quarter, _) => 0.6 * across.powi(2) * up * side.powi(3),
         (Geometry::Half, _) => 1.2 * across.powi(2) * up * side.powi(3),
         (_, Layout::Fitted) => 0.8 * across * up * side.powi(2),
-        (_, Layout::Lattice(per_diameter)) => std::f64::consts::PI / 8.0 * per_diameter.powi(2),
+        (_, Layout::Lattice(per_diameter)) => PI / 8.0 * per_diameter.powi(2),
     };
     points as usize
 }

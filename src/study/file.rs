@@ -2,6 +2,7 @@
 
 use super::axis::Axis;
 use crate::Result;
+use crate::case::scheme::SchemeTable;
 use crate::document::Document;
 use crate::document::keys::{self, Key, Kind, key, keys, table};
 use crate::material::constant::{Constant, Dimension};
@@ -24,6 +25,7 @@ pub struct StudyFile {
     impact: Option<ImpactTable>,
     wall: Option<WallTable>,
     accuracy: Option<AccuracyTable>,
+    pub scheme: Option<SchemeTable>,
     #[serde(default)]
     case: Vec<CaseTable>,
 }
@@ -41,6 +43,7 @@ keys! {
         impact: table("speeds and angles").or(OR_EACH),
         wall: table("the rigid wall").or("frictionless"),
         accuracy: table("what the runs are planned for").or(OR_EACH),
+        scheme: table("a published method in place of the crate's own, for all cases; as in a case file").or("the crate's own"),
         case: table("cases one by one: each has its own tables, and for keys that it does not name those above").or("none"),
     }
 }
@@ -376,6 +379,7 @@ impl StudyFile {
             impact,
             wall,
             accuracy,
+            scheme: _,
             case,
         } = self;
         let above = Tables(particle, material, impact, wall, accuracy).axes("");

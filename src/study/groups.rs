@@ -5,6 +5,7 @@ use crate::case::Case;
 use crate::material::constant::{Absent, Dimension};
 use crate::material::flow::YIELD_STRENGTH;
 use crate::material::{Flow, Material, ReferenceUnits, YIELD_PRESSURE_RATIO};
+use crate::scheme::preset::Method;
 use crate::shape::Shape;
 use std::path::PathBuf;
 
@@ -26,6 +27,8 @@ pub struct Groups {
     angle: f64,
     friction: f64,
     tolerance: f64,
+    /// Published method, its step without seconds.
+    method: Option<Method>,
 }
 
 /// `x` to nine digits.
@@ -51,6 +54,7 @@ impl Groups {
             angle,
             friction,
             tolerance,
+            method,
         } = case;
         let Material {
             density,
@@ -70,6 +74,14 @@ impl Groups {
             angle: nine_digits(*angle),
             friction: *friction,
             tolerance: *tolerance,
+            method: method.map(|method| {
+                let velocity = velocities.first().copied().unwrap_or_default();
+                let method = case.without_seconds(method, velocity);
+                Method {
+                    step: method.step.with(nine_digits(method.step.share())),
+                    ..method
+                }
+            }),
         }
     }
 
@@ -83,6 +95,7 @@ impl Groups {
             angle,
             friction,
             tolerance,
+            method,
         } = self;
         let flow = flow.map_or("elastic".to_owned(), |flow| {
             let constants = flow.constants().into_iter();
@@ -90,8 +103,24 @@ impl Groups {
                 constants.map(|(constant, value)| format!("{}{value:.8e}", constant.symbol));
             texts.collect::<Vec<_>>().join("_")
         });
+        let method = method.map_or_else(String::new, |method| {
+            let Method {
+                preset,
+                filling,
+                degree,
+                step,
+                dimensions,
+            } = method;
+            let lattice =
+                filling.map_or_else(String::new, |f| format!("{}x{:e}", f.points, f.ratio));
+            format!(
+                "_{}{lattice}_degree{degree}_step{:.8e}_{dimensions}D",
+                preset.name(),
+                step.share()
+            )
+        });
         format!(
-            "{flow}_rhoV2E{speed:.8e}_nu{poisson_ratio:e}_angle{angle:.8e}_mu{friction:e}_tol{tolerance:e}"
+            "{flow}_rhoV2E{speed:.8e}_nu{poisson_ratio:e}_angle{angle:.8e}_mu{friction:e}_tol{tolerance:e}{method}"
         )
     }
 
@@ -106,6 +135,7 @@ impl Groups {
             angle,
             friction,
             tolerance,
+            method,
         } = self;
         let name = self.name();
         Case {
@@ -124,6 +154,7 @@ impl Groups {
             angle: *angle,
             friction: *friction,
             tolerance: *tolerance,
+            method: *method,
             bed: None,
         }
     }
@@ -138,6 +169,7 @@ impl Groups {
             angle: 0.0,
             friction: 0.0,
             tolerance: 0.1,
+            method: None,
         };
         any.columns().into_iter().map(|(name, _)| name).collect()
     }

@@ -6,6 +6,7 @@ use crate::case::{Case, slips};
 use crate::document::Document;
 use crate::material::flow::{FlowConstants, InText, YIELD_STRENGTH};
 use crate::material::{Flow, Material, YIELD_PRESSURE_RATIO};
+use crate::scheme::preset::Method;
 use crate::shape::Shape;
 use crate::{Error, Result};
 use rand::RngExt;
@@ -22,6 +23,8 @@ pub struct Lists<'a> {
     pub seed: u64,
     /// Cases of each hypercube.
     pub samples: &'a [usize],
+    /// Published method of all cases.
+    pub method: Option<Method>,
 }
 
 /// A value of an axis, and where it stands.
@@ -200,8 +203,12 @@ impl Lists<'_> {
             angle: get(Variable::Angle).unwrap_or(0.0),
             friction: get(Variable::Friction).unwrap_or(0.0),
             tolerance: required(Variable::Tolerance)?,
+            method: self.method,
             bed: None,
         };
+        if let Some((key, allowed)) = case.beyond_preset(false) {
+            return Err(document.reject(&format!("{at}{key}"), allowed));
+        }
         if let Some((key, _, allowed)) = slips::of(&case, &case.velocities, self.unusual)
             .into_iter()
             .next()

@@ -145,12 +145,18 @@ fn plain(case: &Case) -> Result<()> {
         Case { velocities, .. } if velocities.len() != 1 => format!("{} speeds", velocities.len()),
         Case { angle, .. } if *angle > 0.0 => "an oblique impact".to_owned(),
         Case { friction, .. } if *friction > 0.0 => "friction".to_owned(),
+        Case {
+            method: Some(method),
+            ..
+        } => format!("scheme preset {method}"),
         _ => return Ok(()),
     };
     Err(Error::Refused {
         what: format!("{}: case `{}`", case.path.display(), case.name),
         found,
-        allowed: "must be a normal impact at one speed on a frictionless wall".to_owned(),
+        allowed:
+            "must be a normal impact at one speed on a frictionless wall, by the crate's own scheme"
+                .to_owned(),
     })
 }
 

@@ -58,3 +58,20 @@ fn an_unknown_ladder_is_refused_with_the_names_of_all() {
     );
     assert!(!folder.path().join("o").exists());
 }
+
+#[test]
+fn chapter_3_is_of_the_sphere_of_the_thesis_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("c.toml"), CASE).unwrap();
+    let output = impactlaw(
+        folder.path(),
+        &["cost", "c.toml", "--chapter-3", "--out", "o"],
+    );
+    assert_eq!(output.status.code(), Some(2));
+    let text = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(
+        text.contains("--chapter-3") && text.contains("cases/thesis-3.toml"),
+        "{text}"
+    );
+    assert!(!folder.path().join("o").exists());
+}

@@ -20,6 +20,7 @@ mod killed;
 mod kinds;
 mod owner;
 mod pair;
+mod preset;
 #[path = "../support/program.rs"]
 mod program;
 mod reference;

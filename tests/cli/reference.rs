@@ -8,7 +8,8 @@ use impactlaw::cli::Cli;
 use impactlaw::command::help::{self, markdown};
 use impactlaw::command::schema::FILES;
 use impactlaw::cost::accuracy::Line;
-use impactlaw::curve::{Cylinder, Heating, Summary, Tangential};
+use impactlaw::curve::files::FromFiles;
+use impactlaw::curve::{Cylinder, Heating, SchemeFigures, Summary, Tangential};
 use impactlaw::discover::file::EquationsFile;
 use impactlaw::document::Document;
 use impactlaw::document::reference::{Section as Place, sections, sentence};
@@ -240,12 +241,20 @@ pub fn columns() -> BTreeMap<String, BTreeSet<String>> {
 }
 
 /// Keys of an impact's summary that a normal impact without incident lacks.
-const MAY_BE_ABSENT: [&str; 5] = ["cylinder", "heating", "tangential", "target", "warnings"];
+const MAY_BE_ABSENT: [&str; 6] = [
+    "cylinder",
+    "heating",
+    "scheme",
+    "tangential",
+    "target",
+    "warnings",
+];
 /// Keys of an impact's summary that are no figures, and not in `results.csv`; in the order of the alphabet.
-const NO_FIGURES: [&str; 8] = [
+const NO_FIGURES: [&str; 9] = [
     "cylinder",
     "heating",
     "particle",
+    "scheme",
     "sha256",
     "tangential",
     "target",
@@ -451,7 +460,30 @@ fn every_column_of_every_file_has_its_line_and_no_other() {
     // and the length where it is a cylinder
     particle.insert("length_m".to_owned());
     assert_eq!(reference["particle of summary.json"], particle);
+    // tests/cli/preset.rs runs one
+    let files = FromFiles {
+        interval_s: 1.0,
+        count: 1,
+        max_force_n: 1.0,
+        max_displacement_m: 1.0,
+        contact_time_s: 1.0,
+    };
+    let scheme = SchemeFigures {
+        preset: String::new(),
+        settings: String::new(),
+        time_step_s: Some(1.0),
+        transfer_loss_ratio: 0.0,
+        files: Some(files),
+    };
+    let of_scheme = serde_json::to_string(&scheme).unwrap();
+    assert_eq!(reference["scheme of summary.json"], keys(&of_scheme));
+    let of_files = serde_json::to_string(&files).unwrap();
+    assert_eq!(reference["files of scheme"], keys(&of_files));
     let elsewhere = [
+        "scheme of summary.json",
+        "files of scheme",
+        // tests/impact/cost_thesis.rs makes its rows
+        "chapter_3.csv",
         "cylinder of summary.json",
         "heating of summary.json",
         "particle of summary.json",

@@ -45,6 +45,7 @@ fn summary(velocity_m_s: f64, status: Status) -> Summary {
         wall_s: 2.0,
         cylinder: None,
         target: None,
+        scheme: None,
         heating: None,
         tangential: None,
         particle: None,

@@ -9,6 +9,7 @@ mod large;
 mod maw_barber_fawcett;
 mod pair;
 mod plastic;
+mod presets;
 mod scan;
 mod schemes;
 mod solid;

@@ -42,6 +42,7 @@ pub fn case(material: Material, velocities: &[f64]) -> Case {
         tolerance: 0.02,
         angle: 0.0,
         friction: 0.0,
+        method: None,
         bed: None,
     }
 }
@@ -76,6 +77,7 @@ pub fn summary(velocity: f64, figures: [f64; 5]) -> Summary {
         wall_s: 0.0,
         cylinder: None,
         target: None,
+        scheme: None,
         heating: None,
         tangential: None,
         particle: None,

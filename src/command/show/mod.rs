@@ -1,6 +1,7 @@
 //! Show: the results of a run turned into the plain data that the report takes.
 
 mod bed;
+pub mod chapter;
 pub(crate) mod discover;
 pub(crate) mod equations;
 mod impacts;

@@ -17,6 +17,15 @@ impl<const P: usize> Volume<P> {
     /// The grid of a plan.
     #[must_use]
     pub fn new(grid: &Grid, geometry: Geometry, layout: Layout) -> Self {
+        if let Some(around) = layout.around_centre(grid.fine) {
+            let side: Vec<f64> = around.iter().copied().filter(|x| *x >= 0.0).collect();
+            let along = match geometry {
+                Geometry::Half => around.clone(),
+                _ => side.clone(),
+            };
+            let up = around.iter().map(|x| 1.0 + x).collect();
+            return Self::on([along, side, up], geometry);
+        }
         let lay = |length, to| {
             let length = layout.covering(length, grid.fine);
             graded(length, grid.fine, to, grid.growth, grid.coarse)
@@ -28,7 +37,11 @@ impl<const P: usize> Volume<P> {
         } else {
             side.clone()
         };
-        let breaks = [along, side, lay(2.0, grid.fine_depth)];
+        Self::on([along, side, lay(2.0, grid.fine_depth)], geometry)
+    }
+
+    /// The grid of these breakpoints.
+    fn on(breaks: [Vec<f64>; 3], geometry: Geometry) -> Self {
         Volume {
             axes: breaks.clone().map(Direction::new),
             breaks,

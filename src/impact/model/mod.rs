@@ -46,6 +46,10 @@ pub type AxisymmetricModel<const N: usize> = Model<Axisymmetric, Contact<Axisymm
 
 /// The grid of a plan over the unit sphere.
 fn section<const P: usize>(grid: &Grid, layout: Layout) -> Section<P> {
+    if let Some(around) = layout.around_centre(grid.fine) {
+        let out = around.iter().copied().filter(|x| *x >= 0.0).collect();
+        return Section::new(out, around.iter().map(|x| 1.0 + x).collect());
+    }
     let breaks = |length, to| {
         let length = layout.covering(length, grid.fine);
         graded(length, grid.fine, to, grid.growth, grid.coarse)
@@ -76,6 +80,7 @@ pub fn build<const P: usize, const N: usize>(
     let clipped: Vec<Vec<SectionPoint>> = match layout {
         Layout::Fitted => (0..section.cells()).map(fitted).collect(),
         Layout::Lattice(count) => placed(&section, lattice::points(count)),
+        Layout::Centred(count) => placed(&section, lattice::centred_points(count)),
     };
     let area = |points: &Vec<SectionPoint>| points.iter().map(|p| p.area).sum();
     let areas: Vec<f64> = clipped.iter().map(area).collect();
@@ -127,7 +132,13 @@ pub fn build<const P: usize, const N: usize>(
         contact.hold_interior(held, &places, &recip_mass, columns, grid.fine);
     }
     let offsets: [usize; N] = section.offsets();
+    let inward = match layout {
+        // nothing lies beyond its points, so nothing moves the nodes there
+        Layout::Centred(count) => lattice::centred_outermost(count)[0].z,
+        Layout::Fitted | Layout::Lattice(_) => 0.0,
+    };
     let marker = |z: f64| {
+        let z = z.clamp(inward, grid.shape.height() - inward);
         let (first, values) = section.interpolate::<N>(0.0, z);
         (0..N).map(|n| (first + offsets[n], values[n])).collect()
     };
@@ -163,6 +174,7 @@ fn surface<const P: usize>(section: &Section<P>, layout: Layout) -> Vec<(Surface
     let points = match layout {
         Layout::Fitted => meridian(PI, spacing),
         Layout::Lattice(count) => lattice::outermost(count),
+        Layout::Centred(count) => lattice::centred_outermost(count),
     };
     let lowest = points.first().map_or(0.0, |p| p.z);
     points.into_iter().map(|p| (p, p.z - lowest)).collect()

@@ -37,13 +37,8 @@ impl Mesh<'_> {
                     clip(cell, self.grid.points_per_direction)
                 })
                 .collect(),
-            Layout::Lattice(count) => {
-                let mut cells = vec![Vec::new(); volume.cells()];
-                for p in lattice::ball(count, self.geometry) {
-                    cells[volume.cell_of(p.position)].push(p);
-                }
-                cells
-            }
+            Layout::Lattice(count) => placed(volume, lattice::ball(count, self.geometry)),
+            Layout::Centred(count) => placed(volume, lattice::centred_ball(count, self.geometry)),
         }
     }
 
@@ -55,15 +50,33 @@ impl Mesh<'_> {
                 let points = surface(volume.breaks());
                 points.into_iter().map(|x| (x, x[2])).collect()
             }
-            Layout::Lattice(count) => {
-                let points = lattice::outermost_ball(count, self.geometry);
-                let lowest = points
-                    .iter()
-                    .fold(f64::INFINITY, |least, x| least.min(x[2]));
-                points.into_iter().map(|x| (x, x[2] - lowest)).collect()
+            Layout::Lattice(count) => over_lowest(lattice::outermost_ball(count, self.geometry)),
+            Layout::Centred(count) => {
+                over_lowest(lattice::centred_outermost_ball(count, self.geometry))
             }
         }
     }
+}
+
+/// Points by the cell that holds them.
+fn placed<const P: usize>(volume: &Volume<P>, all: Vec<BallPoint>) -> Vec<Vec<BallPoint>> {
+    let mut cells = vec![Vec::new(); volume.cells()];
+    for p in all {
+        cells[volume.cell_of(p.position)].push(p);
+    }
+    cells
+}
+
+/// Points with the height of each over the lowest.
+fn over_lowest(points: Vec<[f64; 3]>) -> Vec<([f64; 3], f64)> {
+    let lowest = lowest(&points);
+    points.into_iter().map(|x| (x, x[2] - lowest)).collect()
+}
+
+fn lowest(points: &[[f64; 3]]) -> f64 {
+    points
+        .iter()
+        .fold(f64::INFINITY, |least, x| least.min(x[2]))
 }
 
 /// Lay `mesh` over a unit sphere. `N` must be $(P+1)^3$.
@@ -95,7 +108,13 @@ pub fn build<F: Friction, const P: usize, const N: usize>(
         contact.push(first, values, [x[0], x[1], height]);
     }
     contact.couple(&recip_mass);
+    let inward = match mesh.layout {
+        // nothing lies beyond its points, so nothing moves the nodes there
+        Layout::Centred(count) => lowest(&lattice::centred_outermost_ball(count, geometry)),
+        Layout::Fitted | Layout::Lattice(_) => 0.0,
+    };
     let marker = |z: f64| {
+        let z = z.clamp(inward, 2.0 - inward);
         let (first, values) = volume.interpolate::<N>([0.0, 0.0, z]);
         (0..N).map(|n| (first + offsets[n], values[n])).collect()
     };

@@ -1,12 +1,14 @@
 //! Record of a run: what is kept at every output, and how it becomes a curve and its figures in SI units.
 
+use crate::curve::files::FromFiles;
 use crate::curve::{
-    Curve, Cylinder, Heating, Impact, MapPoint, Part, Particle, ParticleMap, Sample, Status,
-    Summary, Tangential,
+    Curve, Cylinder, Heating, Impact, MapPoint, Part, Particle, ParticleMap, Sample, SchemeFigures,
+    Status, Summary, Tangential,
 };
 use crate::impact::kernel::Warmth;
 use crate::material::{Material, ReferenceUnits};
 use crate::plan::Plan;
+use crate::scheme::TimeStep;
 use crate::shape::Shape;
 use crate::tape::keep_fields;
 use crate::unit::engineering;
@@ -387,7 +389,7 @@ impl Record {
         let whole = self.shape.height();
         let least_height = whole - self.largest(|f| whole - f.height) * like.displacement();
         let height = |found: f64| if self.has_poles { found } else { f64::NAN };
-        let summary = Summary {
+        let mut summary = Summary {
             velocity_m_s: plan.velocity,
             restitution: self.exit_speed / self.speed,
             max_force_n: self.max_force() * force,
@@ -416,6 +418,7 @@ impl Record {
             }),
             tangential: self.sliding.map(|s| s.figures(radius, units.speed())),
             target: None,
+            scheme: None,
             cylinder: self.cylinder().map(|[length, foot, fifth]| Cylinder {
                 final_length_m: length * radius,
                 foot_diameter_m: foot * radius,
@@ -425,9 +428,30 @@ impl Record {
             warnings: self.warnings(plan),
             status: self.status.clone(),
         };
-        Impact {
-            summary,
-            curve: Curve { samples },
-        }
+        let curve = Curve { samples };
+        summary.scheme = self.scheme(&curve, &summary, plan, units.time());
+        Impact { summary, curve }
+    }
+
+    /// The published method of the plan; `unit`: R/c0, s.
+    fn scheme(
+        &self,
+        curve: &Curve,
+        summary: &Summary,
+        plan: &Plan,
+        unit: f64,
+    ) -> Option<SchemeFigures> {
+        let method = plan.method?;
+        let interval = plan.file_interval(self.speed);
+        Some(SchemeFigures {
+            preset: method.preset.name().to_owned(),
+            settings: method.to_string(),
+            time_step_s: match plan.scheme.time_step {
+                TimeStep::Fixed(dt) => Some(dt * unit),
+                TimeStep::Stable => None,
+            },
+            transfer_loss_ratio: self.transfer_loss,
+            files: interval.map(|time| FromFiles::of(curve, summary, time * unit, 0.0)),
+        })
     }
 }

@@ -206,6 +206,10 @@ pub struct Blend<V, const N: usize> {
 impl<V: Copy + Default + Keep + AsRef<[f64]> + AsMut<[f64]>, const N: usize> Remap<V>
     for Blend<V, N>
 {
+    #[expect(
+        clippy::needless_range_loop,
+        reason = "zipped iterators are not inlined here, and took as long as the forces"
+    )]
     fn remap(&mut self, step: StepEnd<V>, v: &mut [V]) -> f64 {
         let Carriers {
             carriers,
@@ -216,21 +220,23 @@ impl<V: Copy + Default + Keep + AsRef<[f64]> + AsMut<[f64]>, const N: usize> Rem
         mapped.fill(V::default());
         for p in carriers {
             let (mut change, mut here) = ([0.0; 3], [0.0; 3]);
-            for (value, offset) in p.values.iter().zip(offsets.iter()) {
-                let n = p.node + offset;
-                let pair = v[n].as_ref().iter().zip(step.old[n].as_ref());
-                for ((c, h), (new, old)) in change.iter_mut().zip(&mut here).zip(pair) {
-                    *c += value * (new - old);
-                    *h += value * new;
+            for n in 0..N {
+                let (value, node) = (p.values[n], p.node + offsets[n]);
+                let (new, old) = (v[node].as_ref(), step.old[node].as_ref());
+                for k in 0..new.len() {
+                    change[k] += value * (new[k] - old[k]);
+                    here[k] += value * new[k];
                 }
             }
-            for ((x, c), h) in p.velocity.iter_mut().zip(change).zip(here) {
-                *x = self.flip * (*x + c) + (1.0 - self.flip) * h;
+            for k in 0..3 {
+                p.velocity[k] =
+                    self.flip * (p.velocity[k] + change[k]) + (1.0 - self.flip) * here[k];
             }
-            for (value, offset) in p.values.iter().zip(offsets.iter()) {
-                let share = p.mass * value;
-                for (m, x) in mapped[p.node + *offset].as_mut().iter_mut().zip(p.velocity) {
-                    *m += share * x;
+            for n in 0..N {
+                let share = p.mass * p.values[n];
+                let to = mapped[p.node + offsets[n]].as_mut();
+                for k in 0..to.len() {
+                    to[k] += share * p.velocity[k];
                 }
             }
         }

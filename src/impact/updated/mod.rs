@@ -78,7 +78,7 @@ impl<'a, M: Constitutive<Axisymmetric>, const P: usize, const N: usize> Updated<
     /// Lay out the points.
     pub fn new(plan: &'a Plan, material: M, speed: f64) -> Self {
         let count = match plan.scheme.layout {
-            Layout::Lattice(count) => count,
+            Layout::Lattice(count) | Layout::Centred(count) => count,
             Layout::Fitted => USUAL,
         };
         let section = Section::<P>::uniform(plan.grid.fine, ROOM);
