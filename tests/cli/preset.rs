@@ -162,7 +162,7 @@ fn a_preset_is_named_in_plan_summary_and_law_and_its_impacts_are_no_others() {
 }
 
 #[test]
-fn a_study_keeps_runs_of_a_preset_apart_and_two_sizes_that_take_the_same_steps_are_one() {
+fn a_study_keeps_runs_of_a_preset_apart_from_others_and_from_those_with_other_steps() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
     let runs = || std::fs::read_dir(here.join("o/runs")).map_or(0, Iterator::count);
