@@ -1,7 +1,8 @@
-//! `export`: a law file to the files of other codes, and the check that they hold the same law.
+//! `export`: a law file to the files of other codes, and the check that they hold the same law; a case file to input decks.
 
-use super::{Command, Context, Verdict, output_folder, print};
+use super::{Command, Context, Verdict, export_case, output_folder, print};
 use crate::export::check::{self, Finding};
+use crate::export::deck::{Code, USUAL_CELLS, Wanted};
 use crate::export::source::artifact::Artifact;
 use crate::export::source::portable::Portable;
 use crate::export::{Target, checks};
@@ -16,12 +17,12 @@ use std::path::PathBuf;
 /// Name of all targets together; those that cannot express the law are left out with a warning.
 const ALL: &str = "all";
 
-/// Write a law for other codes, and check there that it is the same law.
+/// Write a law for other codes, and check there that it is the same law; or a case for a finite-element code.
 #[derive(Debug, Args)]
 pub struct ExportArgs {
-    /// Law file.
+    /// Law file; for `calculix` a case file.
     pub law: PathBuf,
-    /// Targets: names of [`Target`] separated by commas, or `all`.
+    /// Targets: names of [`Target`] separated by commas, or `all`; or one of [`Code`].
     #[arg(long, num_args = 1.., value_delimiter = ',', help = to_help())]
     pub to: Vec<String>,
     /// Form of the law, overriding the file's: `closed_form`, `spline` or `hertz`.
@@ -30,7 +31,13 @@ pub struct ExportArgs {
     /// Law file of a second material: contacts of the two, for target `c`.
     #[arg(long)]
     pub with: Option<PathBuf>,
-    /// Output folder (default: `out/<law name>/export`).
+    /// Of a case: flattening over the radius (default: that expected of the fastest impact, at most 0.1).
+    #[arg(long)]
+    pub flattening: Option<f64>,
+    /// Of a case: elements of a contact radius (default: 16).
+    #[arg(long)]
+    pub cells: Option<usize>,
+    /// Output folder (default: `out/<law or case name>/export`).
     #[arg(short, long)]
     pub out: Option<PathBuf>,
     /// Compile and run the law in the codes of `--to` (without it: in all) that are installed, and print how well they agree.
@@ -42,6 +49,7 @@ impl Command for ExportArgs {
     const EXAMPLES: &'static [&'static str] = &[
         "impactlaw export models/sac305-solder.toml --to liggghts,lammps",
         "impactlaw export models/sac305-solder.toml --to all --out deck --check",
+        "impactlaw export cases/thesis-4-4.toml --to calculix --flattening 0.1",
     ];
 
     /// Run the verb.
@@ -49,6 +57,13 @@ impl Command for ExportArgs {
     /// # Errors
     /// Those of the law file and the arguments, of a target that cannot express the law, and of writing.
     fn run(&self, context: &Context) -> Result<Verdict> {
+        if let Some(code) = code(self)? {
+            let wanted = Wanted {
+                flattening: self.flattening,
+                cells: self.cells.unwrap_or(USUAL_CELLS),
+            };
+            return export_case::run(&self.law, code, wanted, self.out.as_deref(), context);
+        }
         let targets = targets(&self.to, self.check)?;
         let form = self.form.as_deref().map(form).transpose()?;
         let law = Portable::read(&self.law, form)?;
@@ -83,6 +98,54 @@ impl Command for ExportArgs {
             (true, None) => check_targets(&law, &targets, context),
             (false, _) => Ok(Verdict::Met),
         }
+    }
+}
+
+/// The code that the arguments name, if it is one that cases go to.
+///
+/// # Errors
+/// [`Error::Argument`] where targets for laws and for cases, or options of the one and the other, are mixed.
+fn code(args: &ExportArgs) -> Result<Option<Code>> {
+    let named = |name: &String| Code::ALL.into_iter().find(|code| code.name() == name);
+    let Some(code) = args.to.iter().find_map(named) else {
+        let of_cases = [
+            ("--flattening", args.flattening.is_some()),
+            ("--cells", args.cells.is_some()),
+        ];
+        let allowed = format!(
+            "must be left out: it is for a case, whose targets are {}",
+            Code::ALL.map(Code::name).join(", ")
+        );
+        return none_of(&of_cases, &allowed).map(|()| None);
+    };
+    if let Some(other) = args.to.iter().find(|name| *name != code.name()) {
+        return Err(Error::Argument {
+            argument: "--to".to_owned(),
+            found: format!("`{}` beside `{other}`", code.name()),
+            allowed: format!("must be alone: {} takes a case file", code.name()),
+        });
+    }
+    let of_laws = [
+        ("--form", args.form.is_some()),
+        ("--with", args.with.is_some()),
+        ("--check", args.check),
+    ];
+    let allowed = format!(
+        "must be left out: it is for a law, and {} takes a case file",
+        code.name()
+    );
+    none_of(&of_laws, &allowed).map(|()| Some(code))
+}
+
+/// Refuses the first of the options that is given.
+fn none_of(options: &[(&str, bool)], allowed: &str) -> Result<()> {
+    match options.iter().find(|(_, given)| *given) {
+        None => Ok(()),
+        Some((option, _)) => Err(Error::Argument {
+            argument: (*option).to_owned(),
+            found: "a value".to_owned(),
+            allowed: allowed.to_owned(),
+        }),
     }
 }
 
@@ -131,8 +194,9 @@ fn targets(names: &[String], check: bool) -> Result<Vec<Target>> {
             argument: "--to".to_owned(),
             found: "nothing".to_owned(),
             allowed: format!(
-                "name one or more of {}, or all; or give --check",
-                Target::ALL.map(Target::name).join(", ")
+                "name one or more of {}, or all, or give --check; or, with a case, {}",
+                Target::ALL.map(Target::name).join(", "),
+                Code::ALL.map(Code::name).join(", ")
             ),
         });
     }
@@ -140,7 +204,7 @@ fn targets(names: &[String], check: bool) -> Result<Vec<Target>> {
     for name in names {
         match name.as_str() {
             ALL => targets.extend(Target::ALL),
-            name => targets.push(name.parse()?),
+            name => targets.push(target(name)?),
         }
     }
     let mut seen = std::collections::HashSet::new();
@@ -148,12 +212,26 @@ fn targets(names: &[String], check: bool) -> Result<Vec<Target>> {
     Ok(targets)
 }
 
+fn target(name: &str) -> Result<Target> {
+    let known = Target::ALL.into_iter().find(|target| target.name() == name);
+    known.ok_or_else(|| {
+        let cases = Code::ALL.map(Code::name);
+        Error::not_one_of(
+            "--to",
+            name,
+            Target::ALL.map(Target::name).iter().chain(&cases),
+        )
+    })
+}
+
 /// Help of `--to`.
 fn to_help() -> String {
     let names = Target::ALL.map(|target| format!("`{target}`"));
+    let codes = Code::ALL.map(|code| format!("`{}`", code.name()));
     format!(
-        "Targets: {}; several separated by commas, or `{ALL}`",
-        names.join(", ")
+        "Targets: {}; several separated by commas, or `{ALL}`; of a case: {}",
+        names.join(", "),
+        codes.join(", ")
     )
 }
 

@@ -14,6 +14,7 @@ pub mod diagnostic;
 pub(crate) mod discover;
 mod discover_add;
 pub(crate) mod export;
+mod export_case;
 pub mod fit;
 pub mod help;
 pub(crate) mod impact;

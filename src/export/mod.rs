@@ -1,4 +1,5 @@
-//! Export: a fitted law in the languages of other discrete-element codes, and the proof that it is the same law there.
+//! Export: a fitted law in the languages of other discrete-element codes, and the proof that it is the same law there; whole scenes
+//! ([`scene`]) and cases ([`deck`]) for other programs.
 //!
 //! A law file becomes a [`source::portable::Portable`]; [`c::kernel`] writes it once in C, and each dialect, one file a target, wraps
 //! that text in what its code asks for. A new target is a new file with its `source::dialect::Dialect`, its `mod` line and one line
@@ -8,6 +9,7 @@ pub mod source;
 
 pub mod c;
 pub mod check;
+pub mod deck;
 pub mod deme;
 pub mod lammps;
 pub mod liggghts;

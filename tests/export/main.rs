@@ -2,6 +2,7 @@
 
 mod bed;
 mod c;
+mod case_decks;
 mod codes;
 mod damping;
 mod decks;

@@ -72,6 +72,7 @@ const WINGS: &[(&str, Order)] = &[
             &["source"],
             &["c"],
             &[
+                "deck",
                 "deme",
                 "lammps",
                 "liggghts",

@@ -1,0 +1,224 @@
+//! Deck: a case as input files of a finite-element code, so that an independent program can have its say on the same question.
+//!
+//! What is written is a sphere that a rigid frictionless plane flattens slowly and lets go. A new code is a new file with its text and one line in the list of [`Code`].
+
+mod calculix;
+pub mod hold;
+pub mod mesh;
+
+use self::mesh::Mesh;
+use crate::case::Case;
+use crate::export::source::artifact::Artifact;
+use crate::material::{Flow, Material};
+use crate::plan::estimate;
+use crate::unit::significant;
+use crate::{Error, Result};
+
+/// Flattening over the radius where nothing is asked for, at most.
+pub const USUAL_FLATTENING: f64 = 0.1;
+/// Least and largest flattening over the radius: below, it is lost in the size of a node's coordinates; beyond, elements that follow the
+/// material are crushed at the edge of the contact.
+pub const FLATTENING: [f64; 2] = [1e-6, 0.2];
+/// Elements of a contact radius where nothing is asked for.
+pub const USUAL_CELLS: usize = 16;
+/// Least and most elements of a contact radius.
+pub const CELLS: [usize; 2] = [4, 100];
+/// Width of the fine part of the mesh over the contact radius.
+const FINE: f64 = 1.2;
+/// Equivalent plastic strain of a contact over a/R (Tabor 1951).
+const TABOR_STRAIN: f64 = 0.2;
+
+/// A finite-element code.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Code {
+    /// CalculiX CrunchiX.
+    CalculiX,
+}
+
+impl Code {
+    /// Every code, in the order of messages.
+    pub const ALL: [Code; 1] = [Code::CalculiX];
+
+    /// Name on the command line.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Code::CalculiX => "calculix",
+        }
+    }
+
+    /// How a deck is run, `NAME` standing for its name.
+    #[must_use]
+    pub const fn run(self) -> &'static str {
+        match self {
+            Code::CalculiX => "ccx -i NAME",
+        }
+    }
+}
+
+/// What decks are asked for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Wanted {
+    /// Flattening over the radius; none: that expected of the fastest impact, at most [`USUAL_FLATTENING`].
+    pub flattening: Option<f64>,
+    /// Elements of a contact radius.
+    pub cells: usize,
+}
+
+/// All that a deck says, in SI units and in radii.
+struct Deck<'a> {
+    case: &'a Case,
+    /// Largest flattening, over R.
+    flattening: f64,
+    /// Contact radius there, over R.
+    contact_radius: f64,
+    /// Elements of it.
+    cells: usize,
+    /// Mesh of a sphere of radius one.
+    mesh: Mesh,
+    /// What made it, for its head.
+    provenance: &'a str,
+}
+
+/// Files of a case for a code, in a folder of its name: `flattening.inp`.
+///
+/// # Errors
+/// [`Error::Refused`] for what is not written: another shape, an oblique impact, friction, a flow stress that knows rate or
+/// temperature, flattening or fineness out of their ranges.
+pub fn export(case: &Case, code: Code, wanted: Wanted, provenance: &str) -> Result<Vec<Artifact>> {
+    check(case, wanted)?;
+    let fastest = case.velocities.iter().copied().fold(0.0, f64::max);
+    let expected = estimate(&case.material, fastest).displacement;
+    let rounded = |x: f64| significant(x, 2).parse().unwrap_or(x);
+    let usual = || rounded(expected.clamp(FLATTENING[0], USUAL_FLATTENING));
+    let flattening = wanted.flattening.unwrap_or_else(usual);
+    let contact_radius = contact_radius(&case.material, flattening);
+    let across = (FINE * wanted.cells as f64).ceil();
+    let fine = contact_radius / wanted.cells as f64 * across;
+    let deck = Deck {
+        case,
+        flattening,
+        contact_radius,
+        cells: wanted.cells,
+        mesh: Mesh::new(fine, across as usize),
+        provenance,
+    };
+    let text = match code {
+        Code::CalculiX => calculix::text(&deck, NAME),
+    };
+    let file = Artifact {
+        name: format!("{NAME}.inp"),
+        text,
+    };
+    Ok(vec![file.within(code.name())])
+}
+
+/// Name of the deck.
+const NAME: &str = "flattening";
+
+/// Contact radius over R at a flattening: Hertz's, where the body yields that of a plane cut.
+fn contact_radius(material: &Material, flattening: f64) -> f64 {
+    match material.flow {
+        None => flattening.sqrt(),
+        Some(_) => (2.0 * flattening).sqrt(),
+    }
+}
+
+fn check(case: &Case, wanted: Wanted) -> Result<()> {
+    case.of_a_normal_impact("a finite-element deck")?;
+    let refuse = |what: &str, found: String, allowed: String| {
+        Err(Error::Refused {
+            what: what.to_owned(),
+            found,
+            allowed,
+        })
+    };
+    let of_case = |key: &str| format!("{}: `{key}`", case.path.display());
+    if let Some(flow) = case.material.flow
+        && hardening(flow).is_none()
+    {
+        let said = |effect: &str| effect != "plasticity" && effect != "hardening";
+        let constants = flow.constants();
+        let constant = constants.iter().find(|(c, _)| said(c.effect));
+        let key = constant.map_or("yield_strength", |(constant, _)| constant.key);
+        return refuse(
+            &of_case(&format!("material.{key}")),
+            flow.name().to_owned(),
+            "must be left out: a deck holds a flow stress of the plastic strain alone".to_owned(),
+        );
+    }
+    let [least, most] = FLATTENING;
+    if let Some(x) = wanted.flattening
+        && !(least..=most).contains(&x)
+    {
+        let allowed = format!(
+            "must be from {least} to {most} radii: elements that follow the material are crushed beyond"
+        );
+        return refuse("--flattening", x.to_string(), allowed);
+    }
+    let [few, many] = CELLS;
+    if !(few..=many).contains(&wanted.cells) {
+        let allowed = format!("must be from {few} to {many}");
+        return refuse("--cells", wanted.cells.to_string(), allowed);
+    }
+    Ok(())
+}
+
+/// Plastic strains of a table of a flow stress that knows nothing else; none of one that knows rate or temperature.
+fn hardening(flow: Flow) -> Option<Vec<f64>> {
+    match flow {
+        Flow::PerfectlyPlastic(_) => Some(vec![0.0]),
+        Flow::LinearHardening(_) => Some(vec![0.0, LARGEST_STRAIN]),
+        // between them a power is off by n (1 - n)/8 of the squared logarithm of their ratio, 0.16 % of the hardening at most
+        Flow::PowerHardening(_) | Flow::VoceHardening(_) => {
+            let mut strains = vec![0.0];
+            let mut strain = LEAST_STRAIN;
+            while strain < LARGEST_STRAIN {
+                strains.push(strain);
+                strain *= 1.25;
+            }
+            strains.push(LARGEST_STRAIN);
+            Some(strains)
+        }
+        Flow::IsothermalJohnsonCook(_) | Flow::JohnsonCook(_) | Flow::CowperSymonds(_) => None,
+    }
+}
+
+/// First plastic strain of a table after 0.
+const LEAST_STRAIN: f64 = 1e-9;
+/// Last one.
+const LARGEST_STRAIN: f64 = 5.0;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_table_of_hardening_is_off_by_less_than_two_thousandths_of_it() {
+        use crate::material::flow::{PowerHardening, VoceHardening};
+        let (strength, rise) = (1e8, 3e8);
+        let kinds = [
+            Flow::PowerHardening(PowerHardening {
+                strength,
+                coefficient: rise,
+                exponent: 0.31,
+            }),
+            Flow::VoceHardening(VoceHardening {
+                strength,
+                saturation: rise,
+                exponent: 15.0,
+            }),
+        ];
+        for flow in kinds {
+            let strains = hardening(flow).unwrap();
+            for pair in strains.windows(2) {
+                let middle = 0.5 * (pair[0] + pair[1]);
+                let table = 0.5 * (flow.at_rest(pair[0]) + flow.at_rest(pair[1]));
+                let error = (table - flow.at_rest(middle)).abs();
+                // of the hardening there, or of that at a strain of 1 (power) or at saturation where it is less
+                let hardening = (flow.at_rest(middle) - strength).max(rise);
+                assert!(error < 2e-3 * hardening, "{pair:?}: {error}");
+            }
+        }
+    }
+}
