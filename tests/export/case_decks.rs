@@ -167,6 +167,7 @@ fn what_a_deck_cannot_say_is_refused_by_name_and_nothing_is_written() {
             ),
             "`particle.shape`",
         ),
+        (format!("{CASE}[scheme]\npreset = \"flip\"\n"), "`scheme"),
         (format!("{CASE}{target}"), "`wall.material`"),
         (
             CASE.replace("yield_strength = \"1.25 GPa\"\n", rate),

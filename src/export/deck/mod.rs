@@ -126,6 +126,7 @@ fn contact_radius(material: &Material, flattening: f64) -> f64 {
 
 fn check(case: &Case, wanted: Wanted) -> Result<()> {
     case.of_a_normal_impact("a finite-element deck")?;
+    case.of_own_scheme("a finite-element deck")?;
     let refuse = |what: &str, found: String, allowed: String| {
         Err(Error::Refused {
             what: what.to_owned(),
