@@ -43,7 +43,7 @@ impl Document {
     /// # Errors
     /// [`Error::File`] when it cannot be read or is not UTF-8.
     pub fn read(path: &Path) -> Result<Self> {
-        let text = std::fs::read_to_string(path).map_err(Error::file("read", path))?;
+        let text = crate::files::read_text(path)?;
         Ok(Self::new(path, text))
     }
 

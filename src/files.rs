@@ -1,12 +1,14 @@
 //! Atomic writes: a file is either the old one or the whole new one, never a part. Folders that are claimed, and files that
-//! carry their sum. VTP, which ParaView reads.
+//! carry their sum. Text that is UTF-8. VTP, which ParaView reads.
 
 mod claim;
 mod sum;
+mod text;
 pub mod vtp;
 
 pub use claim::Claim;
 pub use sum::{Sum, sha256, sum_of, with_sum};
+pub use text::{read_text, text};
 
 use crate::{Error, Result};
 use serde::Serialize;

@@ -15,7 +15,7 @@ use crate::discover::score::{Model, Score, Split};
 use crate::discover::search::Effort;
 use crate::discover::table::{Column, Table};
 use crate::discover::thesis::equations;
-use crate::files::{sha256, write_atomic, write_rows};
+use crate::files::{self, sha256, write_atomic, write_rows};
 use crate::{Error, Result};
 use clap::Args;
 use std::collections::BTreeMap;
@@ -93,9 +93,9 @@ impl Command for DiscoverArgs {
             });
         }
         let bytes = std::fs::read(&path).map_err(Error::file("read", &path))?;
-        let mut text = String::from_utf8_lossy(&bytes).into_owned();
-        let mut study = Study::parse(&text, &path, self)?;
         let mut hash = sha256([&bytes]);
+        let mut text = files::text(bytes, &path)?;
+        let mut study = Study::parse(&text, &path, self)?;
         let beside = path.parent().unwrap_or(Path::new("")).join("discover");
         let out = output_folder(Some(self.out.as_deref().unwrap_or(&beside)), "discover")?;
         context.open_log(&out, "discover", &hash);

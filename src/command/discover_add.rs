@@ -7,7 +7,7 @@ use crate::case::Case;
 use crate::curve::Status;
 use crate::discover::more::Candidates;
 use crate::discover::table::Table;
-use crate::files::write_atomic;
+use crate::files::{self, write_atomic};
 use crate::material::flow::LinearHardening;
 use crate::material::{Flow, Material};
 use crate::plan::plans;
@@ -113,7 +113,7 @@ pub fn run(
         .parent()
         .filter(|f| !f.as_os_str().is_empty())
         .unwrap_or(Path::new("."));
-    let text = std::fs::read_to_string(results).map_err(Error::file("read", results))?;
+    let text = files::read_text(results)?;
     let study = Study::made_from(hash, "added", cases);
     let head = |text: &str| {
         text.lines()

@@ -8,7 +8,7 @@ use super::{Command, Context, Verdict, output_folder, print_json};
 use crate::atlas::Atlas;
 use crate::case::Case;
 use crate::curve::{Impact, Status};
-use crate::files::{sha256, write_atomic};
+use crate::files::{sha256, text, write_atomic};
 use crate::inverse::confidence::{Sampling, intervals};
 use crate::inverse::measurement::{LARGEST_SHARE, Measurements, Taken, Uncertainty};
 use crate::inverse::model::{Known, Point};
@@ -206,11 +206,12 @@ impl InverseArgs {
     fn measured(&self, taken: Taken) -> Result<(String, Measurements)> {
         let path = &self.measurements;
         let bytes = std::fs::read(path).map_err(Error::file("read", path))?;
-        let read = Measurements::parse(&String::from_utf8_lossy(&bytes), path, &taken)?;
+        let hash = sha256([&bytes]);
+        let read = Measurements::parse(&text(bytes, path)?, path, &taken)?;
         for column in &read.unused {
             tracing::warn!("column `{column}` is not used");
         }
-        Ok((sha256([&bytes]), read))
+        Ok((hash, read))
     }
 
     fn unknowns(&self) -> Result<Unknowns> {

@@ -5,7 +5,7 @@ use super::study_runs::{queue, run_folder, simulated};
 use super::{Command, Context, Verdict, output_folder};
 use crate::case::Case;
 use crate::curve::{Impact, Status, Summary};
-use crate::files::{sha256, write_rows};
+use crate::files::{sha256, text, write_rows};
 use crate::study::{Groups, KeptRun, REFERENCE, Study, scaled};
 use crate::thesis::tables::{METAL_RADIUS, METALS};
 use crate::thesis::{Data, Row};
@@ -38,7 +38,7 @@ impl Command for StudyReportArgs {
         let path = self.path();
         let bytes = std::fs::read(&path).map_err(Error::file("read", &path))?;
         let hash = sha256([&bytes]);
-        let data = Data::parse(&String::from_utf8_lossy(&bytes), &path)?;
+        let data = Data::parse(&text(bytes, &path)?, &path)?;
         let folder = path.parent().unwrap_or(Path::new("")).to_owned();
         let own = folder.join("report");
         let out = output_folder(Some(self.out.as_deref().unwrap_or(&own)), "report")?;

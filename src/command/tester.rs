@@ -5,7 +5,7 @@ use super::show::inverse::FoundCase;
 use super::show::tester::{Answer, Found, Throw};
 use super::{Command, Context, Verdict, print, print_json};
 use crate::atlas::Atlas;
-use crate::files::write_atomic;
+use crate::files::{self, write_atomic};
 use crate::inverse::model::{Correction, Known, Model, Point};
 use crate::material::flow::{HARDENING_MODULUS, LinearHardening, YIELD_STRENGTH};
 use crate::material::{Flow, Material};
@@ -119,7 +119,7 @@ impl Command for TesterArgs {
         let deviations = self.deviations()?;
         let (mut support, mut measured, mut found) = (self.support(), None, None);
         if let Some(path) = &self.measured {
-            let text = std::fs::read_to_string(path).map_err(Error::file("read", path))?;
+            let text = files::read_text(path)?;
             let all = parse(&text, path)?;
             let (fitted, said) = constants(&tester, &all, path)?;
             tester.constants = fitted.constants;

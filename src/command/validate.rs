@@ -4,9 +4,10 @@ use super::impact::interval;
 use super::show::validate::{page, text};
 use super::study_runs::{queue, run_folder, simulated};
 use super::{CHECKPOINT_FILE, Command, Context, Verdict, output_folder};
+use crate::Result;
 use crate::case::Case;
 use crate::curve::{Impact, Summary};
-use crate::files::{sha256, write_atomic};
+use crate::files::{self, sha256, write_atomic};
 use crate::impact::simulate_kept;
 use crate::plan::{plan, plans};
 use crate::report::page::Block;
@@ -17,7 +18,6 @@ use crate::validate::measured::Figure;
 use crate::validate::row::Outcome;
 use crate::validate::sample::Sampling;
 use crate::validate::{EXPERIMENTS, Found, Prepared, Stated};
-use crate::{Error, Result};
 use clap::Args;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -202,8 +202,7 @@ impl ValidateArgs {
             return Ok((own.to_owned(), PathBuf::from(name)));
         };
         let path = folder.join(name);
-        let bytes = std::fs::read(&path).map_err(Error::file("read", &path))?;
-        Ok((String::from_utf8_lossy(&bytes).into_owned(), path))
+        Ok((files::read_text(&path)?, path))
     }
 
     /// Writes table, page and plots; whether a bound is missed.

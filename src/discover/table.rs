@@ -135,7 +135,7 @@ impl Table {
     /// # Errors
     /// [`Error::File`] when it cannot be read, [`Error::Value`] for what is no table of a study.
     pub fn read(path: &Path) -> Result<Self> {
-        let text = std::fs::read_to_string(path).map_err(Error::file("read", path))?;
+        let text = crate::files::read_text(path)?;
         Self::parse(&text, path)
     }
 

@@ -304,7 +304,8 @@ pub const READERS: &[Reader] = &[
 ];
 
 /// Files of `src` that read, but nothing that anyone writes for the program or that it keeps.
-const OTHERS: [(&str, &str); 8] = [
+const OTHERS: [(&str, &str); 9] = [
+    ("files/text.rs", "text, which the readers above take"),
     (
         "case/named.rs",
         "constants of materials, which are part of the program",
@@ -366,9 +367,10 @@ fn same<T: std::fmt::Debug>(a: &T, b: &T) {
 }
 
 /// Calls by which a file of `src` reads something: ends of paths, and `document.parse()`.
-const CALLS: [[&str; 2]; 9] = [
+const CALLS: [[&str; 2]; 10] = [
     ["fs", "read"],
     ["fs", "read_to_string"],
+    ["files", "read_text"],
     ["File", "open"],
     ["Document", "read"],
     ["serde_json", "from_str"],

@@ -37,7 +37,7 @@ pub(super) fn warnings(run: &Done, laws: &[AnyLaw]) -> Vec<String> {
     if tally.below_share() > BELOW {
         warnings.push(format!(
             "{} % of the work in yielded contacts that let go was in ones pressed less than in the slowest impact of the law ({}), up to {} at \
-             once: how they rebound is extrapolated, and restitution may be far off; add slower speeds to the case and fit again",
+             once: how they rebound is extrapolated, and restitution may be far off; a law fitted to slower impacts, too, would know",
             significant(100.0 * tally.below_share(), 2),
             slowest(laws),
             tally.below_validity

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// Steps from touch to loss of contact.
-const STEPS: f64 = 20_000.0;
+const STEPS: f64 = 5_000.0;
 /// Part of them that is run: the bodies are apart at the end.
 const RUN: f64 = 1.1;
 /// Steps between rows.
