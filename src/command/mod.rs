@@ -252,7 +252,8 @@ pub fn check_writable(folder: &Path) -> Result<()> {
         true => Path::new("."),
         false => existing,
     };
-    tempfile::NamedTempFile::new_in(existing)
+    // a file without a name: whoever is killed here leaves nothing
+    tempfile::tempfile_in(existing)
         .map(drop)
         .map_err(Error::file("write into output folder", folder))
 }

@@ -1,6 +1,6 @@
 //! Method: the plan of an impact by a preset.
 
-use super::{Effect, Geometry, Plan, Remedies, severity};
+use super::{Effect, Geometry, Plan, Remedies, estimate, severity};
 use crate::case::Case;
 use crate::scheme::preset::{Filling, Method, Preset};
 use crate::scheme::{Layout, Reference, Scheme, TimeStep, Transfer};
@@ -49,6 +49,10 @@ pub(super) fn by(method: Method, plan: Plan, case: &Case) -> Plan {
         if effect.name == "large deformation" && effect.on && method.filling.is_some() {
             effect.on = false;
             effect.reason += "; the preset has none";
+        }
+        if effect.name == "three dimensions" && plan.geometry != Geometry::Axisymmetric {
+            effect.on = true;
+            effect.reason = "the preset's; a normal impact needs none".to_owned();
         }
     }
     plan.effects.push(effect(&method, &plan, case));
@@ -105,6 +109,21 @@ fn effect(method: &Method, plan: &Plan, case: &Case) -> Effect {
 /// What is said of an impact that a preset cannot be asked for: what was found and what is allowed.
 pub(super) fn refusal(case: &Case, velocity: f64) -> Option<[String; 2]> {
     let method = case.method?;
+    if let Some(filling) = method.filling {
+        let distance = 2.0 / f64::from(filling.points);
+        let contact = estimate(&case.material, velocity).contact_radius;
+        if contact < distance {
+            let found = format!("{velocity} m/s");
+            let allowed = format!(
+                "preset \"{}\" takes {} points a diameter, whose distance is {} contact radii: the contact would be one point; take faster \
+                 impacts or more `points`",
+                method.preset.name(),
+                filling.points,
+                significant(distance / contact, 2)
+            );
+            return Some([found, allowed]);
+        }
+    }
     let severity = severity(&case.material, velocity);
     // on the planner's grid its remedies against large deformation would act, and none was shown with transfers of velocity
     (method.filling.is_none() && severity > super::LARGE_FROM).then(|| {

@@ -102,6 +102,11 @@ fn what_is_not_run_under_a_preset_is_refused_by_its_key() {
             .replace(THESIS, "[scheme]\npreset = \"pic\"\n"),
             "`scheme.preset`",
         ),
+        (
+            // pressed by less than a lattice point sees
+            with("5 m/s", "1 mm/s"),
+            "`scheme.preset`",
+        ),
     ];
     for (text, key) in cases {
         let said = refused(&text, &["impact", "c.toml", "--out", "o"]);
