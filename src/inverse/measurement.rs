@@ -237,7 +237,12 @@ impl Shot {
             figure = Figure::CompressionRatio;
             sigma = sigma.map(|sigma| 0.5 * value / root * sigma);
             radius_slope *= 0.5 * value / root;
-            value = 0.5 * (1.0 - root);
+            // (1 - root)/2 without its cancellation: a small flat has a small ratio, not none
+            value = 0.5 * value * value / (1.0 + root);
+            if value == 0.0 {
+                let found = table.cell(row, column);
+                return Err(table.at(row, column, &found, "must be a size that numbers can hold"));
+            }
         }
         if sigma.is_some_and(|sigma| !(sigma > 0.0 && sigma.is_finite())) {
             let found = table.cell(row, &deviation);
@@ -318,6 +323,22 @@ mod tests {
         assert_eq!(values(&one), expected);
         assert_eq!(values(&other), expected);
         assert_eq!(other.unused, ["who"]);
+    }
+
+    #[test]
+    fn the_cap_of_a_small_flat_is_small_and_not_none() {
+        let taken = Taken {
+            radius: 1e-4,
+            uncertainty: Uncertainty::default(),
+            cap: true,
+        };
+        let of = |flat: &str| {
+            let text = format!("velocity_m_s,flat_diameter_um,radius_um\n5,{flat},50\n");
+            Measurements::parse(&text, Path::new("m.csv"), &taken)
+        };
+        let value = of("1e-7").unwrap().all[0].value;
+        assert!((value / 0.25e-18 - 1.0).abs() < 1e-12, "{value}");
+        assert!(of("1e-180").is_err());
     }
 
     #[test]
