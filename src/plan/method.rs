@@ -19,6 +19,22 @@ impl Plan {
         let filling = method.filling?;
         Some(DISTANCES_A_FILE * 2.0 / f64::from(filling.points) / speed)
     }
+
+    /// What a preset's lattice cannot see of the impact: a flattening expected to be less than a distance of its points is that
+    /// of the few points at the pole. None where it is more, or where there is no lattice.
+    #[must_use]
+    pub fn unseen(&self) -> Option<String> {
+        let filling = self.method?.filling?;
+        let distance = 2.0 / f64::from(filling.points);
+        let share = self.estimate.displacement / distance;
+        (share < 1.0).then(|| {
+            format!(
+                "delta* is expected to be {} of the distance of the points: F*, delta* and e are those of the few points at the pole, \
+                 not of the particle; take more `points` or faster impacts",
+                significant(share, 2)
+            )
+        })
+    }
 }
 
 /// `plan`, which is that of the crate's own scheme, by a method.
@@ -99,10 +115,13 @@ fn effect(method: &Method, plan: &Plan, case: &Case) -> Effect {
         Some(_) => "; the tolerance chooses nothing",
         None => "",
     };
+    let unseen = plan
+        .unseen()
+        .map_or_else(String::new, |why| format!("; {why}"));
     Effect {
         name: "preset",
         on: true,
-        reason: format!("{method}{step}{accuracy}"),
+        reason: format!("{method}{step}{accuracy}{unseen}"),
     }
 }
 
@@ -141,6 +160,7 @@ pub(super) fn refusal(case: &Case, velocity: f64) -> Option<[String; 2]> {
 mod tests {
     use super::*;
     use crate::plan::plan;
+    use std::f64::consts::PI;
     use std::path::Path;
 
     const TEXT: &str = "[particle]\nradius = \"12.5 mm\"\n[material]\ndensity = \"1404 kg/m3\"\nyoung_modulus = \"4.9 MPa\"\n\
@@ -148,6 +168,31 @@ mod tests {
 
     fn case(more: &str) -> Case {
         Case::parse(&format!("{TEXT}{more}"), Path::new("c.toml")).unwrap()
+    }
+
+    #[test]
+    fn a_flattening_below_a_distance_of_the_points_is_warned_of_and_a_larger_one_is_not() {
+        let plan_at = |points: u32| {
+            let text = format!("{TEXT}points = {points}\n");
+            let case = Case::parse(&text, Path::new("c.toml")).unwrap();
+            plan(&case, case.velocities[0])
+        };
+        // Hertz: delta = (5 pi/4 (1 - nu^2) rho V^2/E)^(2/5) R = 0.065 R at 1 m/s, 1.6 distances of 50 points a diameter, 0.39 of 12
+        let [fine, coarse] = [plan_at(50), plan_at(12)];
+        let hertz = (1.25 * PI * (1.0 - 0.0625) * 1404.0 / 4.9e6f64).powf(0.4);
+        assert!((coarse.estimate.displacement / hertz - 1.0).abs() < 0.01);
+        assert_eq!(fine.unseen(), None);
+        let said = coarse.unseen().unwrap();
+        assert!(
+            said.contains("0.39 of the distance of the points"),
+            "{said}"
+        );
+        assert!(
+            coarse
+                .effects
+                .iter()
+                .any(|effect| effect.reason.ends_with(&said))
+        );
     }
 
     #[test]

@@ -96,6 +96,8 @@ document.getElementById('reset').click();
 told.whole = look();
 document.getElementById('play').click();
 told.play = said('play');
+document.getElementById('play').click();
+told.stopped = said('play');
 const out = document.createElement('pre');
 out.id = 'told';
 out.textContent = JSON.stringify(told);
@@ -152,5 +154,5 @@ fn the_page_of_a_film_draws_the_particle_and_follows_every_control() {
         told["near"]["ruler"].as_str().unwrap().ends_with("µm"),
         "{told}"
     );
-    assert_eq!(told["play"], "Pause");
+    assert_eq!([&told["play"], &told["stopped"]], ["Pause", "Play"]);
 }

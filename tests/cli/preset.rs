@@ -167,6 +167,25 @@ fn a_preset_is_named_in_plan_summary_and_law_and_its_impacts_are_no_others() {
 }
 
 #[test]
+fn an_impact_that_the_lattice_of_a_preset_cannot_see_is_warned_of() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = format!("{ELASTIC}{THESIS}").replace("5 m/s", "1 m/s");
+    let output = run(folder.path(), &text, &["impact", "c.toml", "--out", "o"]);
+    let said = message(&output);
+    assert!(output.status.success(), "{said}");
+    let unseen = "0.42 of the distance of the points";
+    assert!(said.contains(unseen), "{said}");
+    let summary = Impact::read(&folder.path().join("o/impact_V1"))
+        .unwrap()
+        .summary;
+    assert!(
+        summary.warnings.iter().any(|w| w.contains(unseen)),
+        "{:?}",
+        summary.warnings
+    );
+}
+
+#[test]
 fn a_study_keeps_runs_of_a_preset_apart_from_others_and_from_those_with_other_steps() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();

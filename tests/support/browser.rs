@@ -23,13 +23,16 @@ pub fn open(browser: &Path, page: &str, folder: &Path) -> (String, String) {
     let path = folder.join("visited.html");
     std::fs::write(&path, page).unwrap();
     let profile = folder.join("profile");
+    // WebGL without a graphics card; pages that only draw on a canvas would have every stroke go through that, for minutes
+    let drawn: &[&str] = match page.contains("webgl") {
+        true => &["--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
+        false => &["--disable-gpu"],
+    };
     let output = Command::new(browser)
-        .args(["--headless", "--no-sandbox", "--use-angle=swiftshader"])
+        .args(["--headless", "--no-sandbox"])
+        .args(drawn)
         .args([
-            "--enable-unsafe-swiftshader",
             "--disable-background-networking",
-        ])
-        .args([
             "--virtual-time-budget=200000",
             "--window-size=640,480",
             "--dump-dom",

@@ -316,6 +316,7 @@ impl Record {
                 engineering(plan.run_velocity, "m/s", 3)
             ));
         }
+        warnings.extend(plan.unseen());
         if self.eroded > MUCH_ERODED {
             let share = 100.0 * self.eroded;
             warnings.push(format!(

@@ -6,8 +6,34 @@ use impactlaw::export::scene::Code;
 use impactlaw::export::source::artifact::Artifact;
 use impactlaw::export::source::portable::Portable;
 use impactlaw::export::{lammps, liggghts};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::{Arc, Mutex, OnceLock};
+
+/// What a build leaves beside its sources: names and contents.
+type Built = Vec<(String, Vec<u8>)>;
+
+/// What was built, by its sources: several tests take the same law, and a compiler takes up to a quarter of a minute for it.
+static BUILT: Mutex<BTreeMap<String, Arc<OnceLock<Built>>>> = Mutex::new(BTreeMap::new());
+
+/// Files of a folder with one of these endings; all of them for none.
+fn files(folder: &Path, endings: &[&str]) -> Built {
+    let entries = std::fs::read_dir(folder).unwrap();
+    let mut files: Built = entries
+        .map(|entry| entry.unwrap().path())
+        .filter(|path| {
+            let ends = |ending: &&str| path.extension().is_some_and(|it| it == *ending);
+            path.is_file() && (endings.is_empty() || endings.iter().any(ends))
+        })
+        .map(|path| {
+            let name = path.file_name().unwrap().to_str().unwrap().to_owned();
+            (name, std::fs::read(path).unwrap())
+        })
+        .collect();
+    files.sort();
+    files
+}
 
 /// A code that is installed.
 pub enum Installed {
@@ -30,15 +56,36 @@ impl Installed {
         }
     }
 
-    fn files(&self, law: &Portable) -> Vec<Artifact> {
+    fn exported(&self, law: &Portable) -> Vec<Artifact> {
         match self {
             Installed::Lammps(_) => lammps::export(law),
             Installed::Liggghts(_) => liggghts::export(law),
         }
     }
 
-    /// Builds the exported law in `folder`.
+    /// Builds the exported law in `folder`, or puts there what the same sources were built to before.
     pub fn build(&self, folder: &Path) {
+        let sources = files(folder, &["h", "cpp", "sh"]);
+        let built = BUILT
+            .lock()
+            .unwrap()
+            .entry(format!("{sources:?}"))
+            .or_default()
+            .clone();
+        let built = built.get_or_init(|| {
+            let before = files(folder, &[]);
+            self.compile(folder);
+            let mut after = files(folder, &[]);
+            after.retain(|file| !before.contains(file));
+            assert!(!after.is_empty(), "build.sh leaves something");
+            after
+        });
+        for (name, content) in built {
+            std::fs::write(folder.join(name), content).unwrap();
+        }
+    }
+
+    fn compile(&self, folder: &Path) {
         match self {
             Installed::Lammps(code) => build(folder, &[&code.include, &code.mpi.join("include")]),
             Installed::Liggghts(code) => build(folder, &[&code.source]),
@@ -83,7 +130,7 @@ impl Exported {
     pub fn of(law: Portable, code: Code) -> Option<Self> {
         let installed = Installed::find(code)?;
         let scratch = tempfile::tempdir().unwrap();
-        let folder = write(&installed.files(&law), scratch.path());
+        let folder = write(&installed.exported(&law), scratch.path());
         installed.build(&folder);
         Some(Exported {
             law,
