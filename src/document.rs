@@ -1,6 +1,6 @@
 //! Document: a TOML input file with its text, and errors that point into it.
 
-pub(crate) mod keys;
+pub mod keys;
 pub(crate) mod misfit;
 pub(crate) mod range;
 pub mod reference;

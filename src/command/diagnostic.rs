@@ -16,6 +16,16 @@ pub fn text(error: &Error) -> String {
     } else {
         GraphicalTheme::unicode_nocolor()
     };
+    drawn(error, theme)
+}
+
+/// The same without colours, whoever reads it.
+#[must_use]
+pub fn plain(error: &Error) -> String {
+    drawn(error, GraphicalTheme::unicode_nocolor())
+}
+
+fn drawn(error: &Error, theme: GraphicalTheme) -> String {
     let handler = GraphicalReportHandler::new_themed(theme).with_wrap_lines(false);
     let mut text = String::new();
     match handler.render_report(&mut text, report(error).as_ref()) {

@@ -6,7 +6,7 @@ use crate::command::{CHECKPOINT_FILE, Command, Context, Verdict, impact_folder, 
 use crate::curve::{Status, Summary, film};
 use crate::files::write_rows;
 use crate::impact::pair::{SimulatedPair, simulate_pair};
-use crate::impact::{Simulated, simulate_kept, simulate_repeated};
+use crate::impact::{Simulated, each_speed, simulate_kept, simulate_repeated};
 use crate::plan::pair::{PairPlan, pair_plans};
 use crate::plan::plans;
 use crate::tape::Checkpoint;
@@ -215,48 +215,35 @@ fn repeated_impacts(
     wanted: &Wanted,
     context: &Context,
 ) -> Result<Vec<Vec<Simulated>>> {
-    let mut plans = plans(case)?;
-    plans.sort_by(|a, b| b.seconds.total_cmp(&a.seconds));
+    let plans = plans(case)?;
     let bar = context.progress(plans.len() as u64, "impacts");
-    let mut all = plans
-        .par_iter_mut()
-        .with_max_len(1)
-        .map(|plan| {
-            plan.pictures = wanted.pictures;
-            let folder = impact_folder(out, plan.velocity);
-            let done = if wanted.impacts > 1 {
-                simulate_repeated(&case.material, case.radius, plan, wanted.impacts)
-            } else {
-                let checkpoint = Checkpoint::new(&folder.join(CHECKPOINT_FILE), wanted.interval);
-                vec![simulate_kept(
-                    &case.material,
-                    case.radius,
-                    plan,
-                    &checkpoint,
-                )]
-            };
-            write_impacts(case, &done, &folder, context)?;
-            bar.inc(1);
-            let summary = &done[0].impact.summary;
-            for warning in &summary.warnings {
-                tracing::warn!("at {} m/s: {warning}", plan.velocity);
-            }
-            tracing::info!(
-                "{} m/s: {} points, {} steps in {:.1} s (predicted {:.1} s)",
-                plan.velocity,
-                summary.points,
-                summary.steps,
-                summary.wall_s,
-                plan.seconds
-            );
-            Ok(done)
-        })
-        .collect::<Result<Vec<Vec<Simulated>>>>()?;
+    let all = each_speed(plans, |plan| {
+        plan.pictures = wanted.pictures;
+        let folder = impact_folder(out, plan.velocity);
+        let done = if wanted.impacts > 1 {
+            simulate_repeated(&case.material, case.radius, plan, wanted.impacts)
+        } else {
+            let checkpoint = Checkpoint::new(&folder.join(CHECKPOINT_FILE), wanted.interval);
+            let (material, radius) = (&case.material, case.radius);
+            vec![simulate_kept(material, radius, plan, &checkpoint)]
+        };
+        write_impacts(case, &done, &folder, context)?;
+        bar.inc(1);
+        let summary = &done[0].impact.summary;
+        for warning in &summary.warnings {
+            tracing::warn!("at {} m/s: {warning}", plan.velocity);
+        }
+        tracing::info!(
+            "{} m/s: {} points, {} steps in {:.1} s (predicted {:.1} s)",
+            plan.velocity,
+            summary.points,
+            summary.steps,
+            summary.wall_s,
+            plan.seconds
+        );
+        Ok(done)
+    })?;
     bar.finish_and_clear();
-    all.sort_by(|a, b| {
-        let speed = |s: &[Simulated]| s[0].impact.summary.velocity_m_s;
-        speed(a).total_cmp(&speed(b))
-    });
     Ok(all)
 }
 

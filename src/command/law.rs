@@ -3,8 +3,7 @@
 use super::law_atlas::LawAtlasArgs;
 use super::{Command, Context, Verdict, print};
 use crate::Result;
-use crate::contact::{LawVisitor, NormalLaw};
-use crate::law::LawFile;
+use crate::law::{AnyLaw, LawFile, beyond};
 use crate::unit::{Length, argument};
 use crate::{Error, unit::Dimension};
 use clap::{Args, Subcommand};
@@ -82,7 +81,7 @@ struct EvalRow {
 
 /// Print `displacement_m,force_N` of the rate-independent core (displacements alone tell no rate); a warning where the law is used outside the range of its impacts.
 fn eval(args: &LawEvalArgs) -> Result<Verdict> {
-    let law = LawFile::read(&args.law)?.law()?;
+    let law = AnyLaw::Fitted(LawFile::read(&args.law)?.law()?);
     let radius = positive::<Length>("--body", &args.body)?;
     let most = match &args.max_displacement {
         Some(text) => argument::<Length>("--max-displacement", text)?,
@@ -94,25 +93,16 @@ fn eval(args: &LawEvalArgs) -> Result<Verdict> {
         .map(|text| argument::<Length>("--displacements", text))
         .collect::<Result<Vec<f64>>>()?;
     for (text, displacement) in args.displacements.iter().zip(&displacements) {
-        let beyond = |allowed: String| Error::Argument {
-            argument: "--displacements".to_owned(),
-            found: format!("\"{text}\""),
-            allowed,
-        };
-        if *displacement >= radius {
-            return Err(beyond(format!(
-                "must be less than the radius, {}: a law describes a body that is flattened, not gone",
-                crate::unit::engineering(radius, "m", 4)
-            )));
-        }
-        if args.max_displacement.is_some() && *displacement > most {
-            return Err(beyond(format!(
-                "must be at most --max-displacement, {}: on the way back no displacement is larger",
-                crate::unit::engineering(most, "m", 4)
-            )));
+        let most = args.max_displacement.as_ref().map(|_| most);
+        if let Some(allowed) = beyond(radius, *displacement, most, "--max-displacement") {
+            return Err(Error::Argument {
+                argument: "--displacements".to_owned(),
+                found: format!("\"{text}\""),
+                allowed,
+            });
         }
     }
-    let limit = law.visit(ValidTo) * radius;
+    let limit = law.valid_to()? * radius;
     let outside = displacements.iter().filter(|d| d.max(most) > limit).count();
     if outside > 0 {
         tracing::warn!(
@@ -120,11 +110,12 @@ fn eval(args: &LawEvalArgs) -> Result<Verdict> {
             crate::unit::engineering(limit, "m", 4)
         );
     }
-    let row = |displacement: f64| EvalRow {
-        displacement_m: displacement,
-        force_n: law.force(radius, displacement, most),
+    let forces = law.forces(radius, most, &displacements)?;
+    let row = |(displacement_m, force_n)| EvalRow {
+        displacement_m,
+        force_n,
     };
-    let rows: Vec<EvalRow> = displacements.into_iter().map(row).collect();
+    let rows: Vec<EvalRow> = displacements.into_iter().zip(forces).map(row).collect();
     let text = super::theory::rows_text(args.json, &rows)?;
     print(&text)?;
     Ok(Verdict::Met)
@@ -140,15 +131,4 @@ fn positive<D: Dimension>(name: &str, text: &str) -> Result<f64> {
         found: format!("\"{text}\""),
         allowed: "must be positive".to_owned(),
     })
-}
-
-/// Largest flattening the law's impacts cover.
-struct ValidTo;
-
-impl LawVisitor for ValidTo {
-    type Output = f64;
-
-    fn visit<L: NormalLaw>(self, law: &L) -> f64 {
-        law.valid_to()
-    }
 }

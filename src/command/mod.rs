@@ -3,7 +3,7 @@
 //!
 //! A new verb is a new file, its `mod` line and one line of the list of [`Verb`].
 
-mod another_kind;
+pub mod another_kind;
 pub(crate) mod atlas;
 pub(crate) mod bed;
 pub(crate) mod bed_export;
@@ -25,7 +25,7 @@ pub(crate) mod law_atlas;
 pub mod log;
 pub(crate) mod man;
 mod material_args;
-pub(crate) mod plan;
+pub mod plan;
 pub(crate) mod predict;
 pub(crate) mod run;
 pub mod schema;
@@ -43,6 +43,7 @@ pub(crate) mod validate;
 use crate::files::Claim;
 use crate::{Error, Result};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::ffi::OsString;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -143,12 +144,11 @@ pub enum Verdict {
 }
 
 impl Context {
-    /// Context of this process.
+    /// Context of a command line, the program's name first.
     #[must_use]
-    pub fn of_process(quiet: bool, program: fn() -> clap::Command) -> Self {
-        let words = std::env::args_os()
-            .skip(1)
-            .map(|word| quoted(&word.to_string_lossy()));
+    pub fn of(words: &[OsString], quiet: bool, program: fn() -> clap::Command) -> Self {
+        let words = words.iter().skip(1);
+        let words = words.map(|word| quoted(&word.to_string_lossy()));
         let command = std::iter::once("impactlaw".to_owned())
             .chain(words)
             .collect::<Vec<_>>()

@@ -2,8 +2,9 @@
 
 use super::{Command, Context, Verdict};
 use crate::case::Case;
-use crate::contact::rebound::rebound;
+use crate::contact::rebound::Rebound;
 use crate::contact::{LawVisitor, NormalLaw};
+use crate::law::AnyLaw;
 use crate::material::constant::Constant;
 use crate::theory::published::{Evidence, Publication, left_out};
 use crate::theory::{FORMULAS, Theory};
@@ -228,10 +229,12 @@ fn restitution_rows(args: &TheoryArgs, case: &Case) -> Result<Vec<RestitutionRow
         return Ok(velocities.into_iter().map(row).collect());
     }
     let theory: Theory = model.parse()?;
-    let integrated = theory.visit(material, Restitutions(case, &velocities))?;
-    let row = |(velocity_m_s, e)| RestitutionRow {
+    let law = AnyLaw::Theory(theory, *material);
+    let mass = material.sphere_mass(case.radius);
+    let integrated = law.rebounds(case.radius, mass, &velocities)?;
+    let row = |(velocity_m_s, rebound): (f64, Rebound)| RestitutionRow {
         velocity_m_s,
-        restitution: Some(e),
+        restitution: Some(rebound.restitution),
         restitution_closed_form: theory.restitution_closed_form(material, velocity_m_s),
     };
     Ok(velocities
@@ -240,20 +243,6 @@ fn restitution_rows(args: &TheoryArgs, case: &Case) -> Result<Vec<RestitutionRow
         .zip(integrated)
         .map(row)
         .collect())
-}
-
-/// Integrates the impact of the case's sphere at each speed.
-struct Restitutions<'a>(&'a Case, &'a [f64]);
-
-impl LawVisitor for Restitutions<'_> {
-    type Output = Vec<f64>;
-
-    fn visit<L: NormalLaw>(self, law: &L) -> Vec<f64> {
-        let Restitutions(case, velocities) = self;
-        let mass = case.material.sphere_mass(case.radius);
-        let e = |&velocity: &f64| rebound(law, case.radius, mass, velocity).restitution;
-        velocities.iter().map(e).collect()
-    }
 }
 
 fn quantities<D: unit::Dimension>(

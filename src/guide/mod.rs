@@ -21,6 +21,7 @@ chapters! {
     discover, "discover.md";
     atlas, "atlas.md";
     inverse, "inverse.md";
+    python, "python.md";
     accuracy, "accuracy.md";
     solver, "solver.md";
     measured, "measured.md";

@@ -17,6 +17,7 @@ pub mod wall;
 
 use self::choice::{Job, Plastic};
 use self::run::record::Record;
+use crate::Result;
 use crate::curve::film::Film;
 use crate::curve::{Impact, ParticleMap, Status};
 use crate::material::stress::{Elastic, Moduli};
@@ -24,6 +25,7 @@ use crate::material::{Material, ReferenceUnits};
 use crate::plan::Plan;
 use crate::scheme::Scheme;
 use crate::tape::Checkpoint;
+use rayon::prelude::*;
 
 /// Points of the whole sphere on the thesis' lattice of `count` a diameter.
 #[must_use]
@@ -88,6 +90,24 @@ pub fn simulate_repeated(
     simulated(material, radius, &plan, None)
 }
 
+/// Does `work` for each of `plans` on as many threads as there are, longest first; what it returns is in order of speed.
+///
+/// # Errors
+/// The first of the work's.
+pub fn each_speed<T: Send>(
+    mut plans: Vec<Plan>,
+    work: impl Fn(&mut Plan) -> Result<T> + Sync,
+) -> Result<Vec<T>> {
+    plans.sort_by(|a, b| b.seconds.total_cmp(&a.seconds));
+    let mut all = plans
+        .par_iter_mut()
+        .with_max_len(1)
+        .map(|plan| Ok((plan.velocity, work(plan)?)))
+        .collect::<Result<Vec<(f64, T)>>>()?;
+    all.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+    Ok(all.into_iter().map(|(_, done)| done).collect())
+}
+
 /// Run the impacts of a plan with the material it calls for.
 fn attempt(
     material: &Material,
@@ -135,7 +155,9 @@ fn simulated(
 ) -> Vec<Simulated> {
     let started = std::time::Instant::now();
     let mut records = attempt(material, radius, plan, checkpoint);
-    if let Some(reason) = failure(&records).filter(|_| plan.scheme == Scheme::default()) {
+    let stopped = checkpoint.is_some_and(Checkpoint::is_stopped);
+    let again = plan.scheme == Scheme::default() && !stopped;
+    if let Some(reason) = failure(&records).filter(|_| again) {
         tracing::warn!("{reason}; tried again with half the time step");
         let mut careful = plan.clone();
         careful.grid.dt_share *= 0.5;

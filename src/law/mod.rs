@@ -7,10 +7,12 @@ mod write;
 pub use file::{Form, LawFile};
 
 use crate::contact::elastoplastic::{ClosedForm, Spline};
+use crate::contact::rebound::{Rebound, State, rebound, trajectory};
 use crate::contact::{LawVisitor, NormalLaw, Slowest};
 use crate::material::Material;
 use crate::theory::Theory;
 use crate::theory::hertz::Hertz;
+use crate::unit::engineering;
 use crate::{Error, Result};
 
 /// Name of the law that the atlas has for a material.
@@ -49,6 +51,29 @@ impl FittedLaw {
     }
 }
 
+/// Why a body of `radius` (m) has no force at `displacement` (m) on the way back from `most` (m), or on first loading; none where
+/// it has one. Messages call the largest displacement `name_of_most`.
+#[must_use]
+pub fn beyond(
+    radius: f64,
+    displacement: f64,
+    most: Option<f64>,
+    name_of_most: &str,
+) -> Option<String> {
+    let length = |x: f64| engineering(x, "m", 4);
+    if displacement >= radius {
+        return Some(format!(
+            "must be less than the radius, {}: a law describes a body that is flattened, not gone",
+            length(radius)
+        ));
+    }
+    let most = most.filter(|most| displacement > *most)?;
+    Some(format!(
+        "must be at most {name_of_most}, {}: on the way back no displacement is larger",
+        length(most)
+    ))
+}
+
 /// Force at one displacement after a largest one.
 struct ForceAt {
     radius: f64,
@@ -64,6 +89,72 @@ impl LawVisitor for ForceAt {
         law.force(self.most / self.radius, &mut history);
         let reduced = law.force(self.displacement / self.radius, &mut history);
         reduced * self.radius * self.radius
+    }
+}
+
+/// Forces at several displacements after a largest one.
+struct Forces<'a> {
+    radius: f64,
+    most: f64,
+    displacements: &'a [f64],
+}
+
+impl LawVisitor for Forces<'_> {
+    type Output = Vec<f64>;
+
+    fn visit<L: NormalLaw>(self, law: &L) -> Vec<f64> {
+        let at = |&displacement: &f64| {
+            let (radius, most) = (self.radius, self.most);
+            ForceAt {
+                radius,
+                displacement,
+                most,
+            }
+            .visit(law)
+        };
+        self.displacements.iter().map(at).collect()
+    }
+}
+
+/// Impacts at several speeds.
+struct Rebounds<'a> {
+    radius: f64,
+    mass: f64,
+    velocities: &'a [f64],
+}
+
+impl LawVisitor for Rebounds<'_> {
+    type Output = Vec<Rebound>;
+
+    fn visit<L: NormalLaw>(self, law: &L) -> Vec<Rebound> {
+        let at = |&velocity: &f64| rebound(law, self.radius, self.mass, velocity);
+        self.velocities.iter().map(at).collect()
+    }
+}
+
+/// One impact, instant by instant.
+struct Path {
+    radius: f64,
+    mass: f64,
+    velocity: f64,
+}
+
+impl LawVisitor for Path {
+    type Output = Vec<State>;
+
+    fn visit<L: NormalLaw>(self, law: &L) -> Vec<State> {
+        trajectory(law, self.radius, self.mass, self.velocity)
+    }
+}
+
+/// Largest flattening that is supported.
+struct ValidTo;
+
+impl LawVisitor for ValidTo {
+    type Output = f64;
+
+    fn visit<L: NormalLaw>(self, law: &L) -> f64 {
+        law.valid_to()
     }
 }
 
@@ -86,6 +177,51 @@ impl AnyLaw {
             AnyLaw::Fitted(law) => Ok(law.visit(visitor)),
             AnyLaw::Theory(theory, material) => theory.visit(material, visitor),
         }
+    }
+
+    /// Forces (N) on a body of `radius` (m) at `displacements` (m), each after a largest displacement of `most` before, without
+    /// inertia.
+    ///
+    /// # Errors
+    /// As [`AnyLaw::visit`].
+    pub fn forces(&self, radius: f64, most: f64, displacements: &[f64]) -> Result<Vec<f64>> {
+        self.visit(Forces {
+            radius,
+            most,
+            displacements,
+        })
+    }
+
+    /// Impacts of a body of `radius` (m) and `mass` (kg) on a rigid plane at `velocities` (m/s).
+    ///
+    /// # Errors
+    /// As [`AnyLaw::visit`].
+    pub fn rebounds(&self, radius: f64, mass: f64, velocities: &[f64]) -> Result<Vec<Rebound>> {
+        self.visit(Rebounds {
+            radius,
+            mass,
+            velocities,
+        })
+    }
+
+    /// Path of one of these impacts, as [`trajectory`] has it.
+    ///
+    /// # Errors
+    /// As [`AnyLaw::visit`].
+    pub fn trajectory(&self, radius: f64, mass: f64, velocity: f64) -> Result<Vec<State>> {
+        self.visit(Path {
+            radius,
+            mass,
+            velocity,
+        })
+    }
+
+    /// Largest flattening $\delta/R$ that the law's source supports.
+    ///
+    /// # Errors
+    /// As [`AnyLaw::visit`].
+    pub fn valid_to(&self) -> Result<f64> {
+        self.visit(ValidTo)
     }
 
     /// Slowest impact the law rests on, where it has one in which the body yields.

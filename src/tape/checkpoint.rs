@@ -8,6 +8,8 @@ use crate::files::write_atomic;
 use crate::{PROGRAM, Result};
 use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 /// Version of what checkpoints hold: to be raised whenever a kept structure changes.
@@ -22,6 +24,7 @@ const SUM: usize = 32;
 pub struct Checkpoint {
     path: PathBuf,
     interval: Duration,
+    stop: Option<Arc<AtomicBool>>,
 }
 
 impl Checkpoint {
@@ -31,7 +34,24 @@ impl Checkpoint {
         Checkpoint {
             path: path.to_owned(),
             interval,
+            stop: None,
         }
+    }
+
+    /// Keeps nothing; runs end, as failed, once `stop` is true.
+    #[must_use]
+    pub fn stopped_by(stop: Arc<AtomicBool>) -> Self {
+        Checkpoint {
+            stop: Some(stop),
+            ..Self::new(Path::new(""), Duration::MAX)
+        }
+    }
+
+    /// Whether runs are to end.
+    #[must_use]
+    pub fn is_stopped(&self) -> bool {
+        let stop = self.stop.as_ref();
+        stop.is_some_and(|stop| stop.load(Ordering::Relaxed))
     }
 
     /// The file.
@@ -103,6 +123,11 @@ impl<'a> Keeper<'a> {
     /// Whether it is time to keep the run again.
     pub fn is_due(&self) -> bool {
         self.last.elapsed() >= self.checkpoint.interval
+    }
+
+    /// Whether the run is to end.
+    pub fn is_stopped(&self) -> bool {
+        self.checkpoint.is_stopped()
     }
 
     /// Keep the run.

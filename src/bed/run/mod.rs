@@ -1,14 +1,15 @@
 //! Run of a scene: one packing, then the same stages under each law, side by side.
 
 pub(crate) mod assembly;
+pub mod hand;
 pub(crate) mod packing;
 mod warnings;
 mod watch;
 
-use self::assembly::{Recipe, Start, assemble, elastic, laws};
+use self::assembly::{Start, laws};
+use self::hand::{Ready, machine};
 use self::warnings::warnings;
 use self::watch::Watch;
-use crate::bed::filling::drain::Drain;
 use crate::bed::filling::falls::check_falls;
 use crate::bed::filling::{check_bodies, insert};
 use crate::bed::measures::gauge::finding;
@@ -19,12 +20,7 @@ use crate::bed::record::oedometer as side_by_side;
 use crate::bed::record::summary::{Counts, Summary};
 use crate::bed::scene::{Scene, Stage};
 use crate::bed::stages::time_step;
-use crate::bed::stages::{Done, Run, Terms};
-use crate::dem::bodies::enclosure::Room;
-use crate::dem::bodies::machine::Machine;
-use crate::dem::dynamics::Parts;
-use crate::dem::force::damping::USUAL_STEPS;
-use crate::dem::force::named::Constants;
+use crate::bed::stages::{Done, Run};
 use crate::dem::grains::Grains;
 use crate::law::{AnyLaw, LawFile};
 use crate::tape::{Checkpoint, Keeper, TakenUp, VERSION};
@@ -38,9 +34,6 @@ use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// Distance up to which neighbours are listed, over the largest radius: the best of a scan between lists that are
-/// short and lists that last.
-const SKIN: f64 = 0.15;
 /// Grains up to which the laws of a scene run side by side, each on threads of its own. A step of some hundred grains is too short
 /// to be shared by threads; beds of more would take too much memory at once.
 const SIDE_BY_SIDE: usize = 100_000;
@@ -101,7 +94,7 @@ pub fn run_scene(scene: &Scene, given: Option<&LawFile>, options: &Options) -> R
     let laws: Vec<Vec<AnyLaw>> = listed
         .map(|name| laws(&scene.materials, |index| scene.uses(index), name, given))
         .collect::<Result<_>>()?;
-    let mut start = begin(scene, options)?;
+    let mut start = begin(scene, options.seed)?;
     let prepares = scene.stages.iter().any(Stage::prepares);
     let packing = match prepares {
         true => Some(pack(scene, &mut start, options)?),
@@ -148,9 +141,9 @@ pub fn run_scene(scene: &Scene, given: Option<&LawFile>, options: &Options) -> R
     })
 }
 
-/// The scene before its first step, grains and bodies checked.
-pub(in crate::bed) fn begin(scene: &Scene, options: &Options) -> Result<Start> {
-    let (grains, feed, room) = insert(scene, options.seed.unwrap_or(scene.seed))?;
+/// The scene before its first step, grains and bodies checked; `seed` in place of its own.
+pub(in crate::bed) fn begin(scene: &Scene, seed: Option<u64>) -> Result<Start> {
+    let (grains, feed, room) = insert(scene, seed.unwrap_or(scene.seed))?;
     time_step::check(scene)?;
     let machine = machine(scene, &room)?;
     check_bodies(scene, &feed, &grains, &machine)?;
@@ -173,77 +166,19 @@ pub(in crate::bed) fn begin(scene: &Scene, options: &Options) -> Result<Start> {
     })
 }
 
-/// Bodies of a scene in their room.
-fn machine(scene: &Scene, room: &Room) -> Result<Machine> {
-    Machine::new(scene.all_bodies(room), scene.gravity, scene.radius())
-}
-
-/// What the bed of a scene is made of where it starts.
-fn parts(scene: &Scene, start: &Start) -> Result<Parts> {
-    let mut machine = machine(scene, &start.room)?;
-    if let Some(bodies) = &start.bodies {
-        machine.restore(bodies, start.time);
-    }
-    let mut grains = start.grains.clone();
-    grains.plastic.fill(0.0);
-    grains.plastic_gone = 0.0;
-    Ok(Parts {
-        grains,
-        machine,
-        gravity: scene.gravity,
-        dt: Terms::of(scene, USUAL_STEPS).limits.rayleigh(1.0),
-        skin: SKIN * scene.radii()[1],
-    })
-}
-
-/// How the contacts of a scene are made up under `laws`, pairs of materials left out.
-fn recipe<'a>(scene: &'a Scene, laws: Vec<AnyLaw>, contact: &'a Constants) -> Recipe<'a> {
-    let [smallest, largest] = scene.radii();
-    Recipe {
-        materials: &scene.materials,
-        laws,
-        contact,
-        pairs: &[],
-        is_mixture: scene.is_mixture(),
-        material: scene.groups[0].material,
-        monodisperse: smallest == largest,
-        softening: scene.contact.softening(),
-    }
-}
-
 /// Makes the packing with softened elastic contacts.
 pub(in crate::bed) fn pack(scene: &Scene, start: &mut Start, options: &Options) -> Result<LawRun> {
     let began = Instant::now();
-    let contact = scene.stages.iter().find_map(|stage| match stage {
-        Stage::Settle { contact, .. } => Some(*contact),
-        _ => None,
-    });
-    let contact = contact.unwrap_or(scene.contact);
-    let recipe = recipe(scene, elastic(&scene.materials), &contact);
-    let bed = assemble(&recipe, parts(scene, start)?)?;
+    let ready = Ready::to_pack(scene, start)?;
     let mut watch = Watch::new("packing", &folder(options, "packing"), scene, options);
     let checkpoint = checkpoint("packing", options);
     let plan = format!("{} {:?} packing", scene.hash, options.seed);
-    // how fast a packing settles is a means: the usual steps do
-    let terms = Terms::of(scene, USUAL_STEPS);
-    let flows = (start.feed.clone(), Drain::new(&scene.outlets));
-    let mut run = Run::new(bed, terms, start.room, flows, &scene.measures, &mut watch);
+    let (mut run, laws) = ready.run(scene, start, &mut watch);
     let stages: Vec<&Stage> = scene.stages.iter().filter(|s| s.prepares()).collect();
     go(&mut run, &stages, &plan, checkpoint.as_ref())?;
-    start.grains = run.bed.grains().clone();
-    start.bodies = Some(run.bed.machine().state());
-    start.time = run.bed.clock().1;
-    start.feed = run.feed.clone();
-    start.feed.restart_clock(start.time);
+    start.goes_on_from(&run);
     let done = run.done();
-    finish(
-        "packing",
-        scene,
-        (done, &recipe.laws),
-        watch,
-        began,
-        options,
-    )
+    finish("packing", scene, (done, &laws), watch, began, options)
 }
 
 /// Runs the stages after the packing under one law.
@@ -255,18 +190,11 @@ fn under_law(
     options: &Options,
 ) -> Result<LawRun> {
     let began = Instant::now();
-    let steps = time_step::steps_under(scene, &laws)?;
-    let recipe = Recipe {
-        pairs: &scene.pairs,
-        ..recipe(scene, laws.clone(), &scene.contact)
-    };
-    let plan = format!("{} {:?} {name} {:?}", scene.hash, options.seed, recipe.laws);
-    let bed = assemble(&recipe, parts(scene, start)?)?;
+    let ready = Ready::under(scene, laws, start)?;
+    let plan = format!("{} {:?} {name} {:?}", scene.hash, options.seed, ready.laws);
     let mut watch = Watch::new(name, &folder(options, name), scene, options);
     let checkpoint = checkpoint(name, options);
-    let terms = Terms::of(scene, steps);
-    let flows = (start.feed.clone(), Drain::new(&scene.outlets));
-    let mut run = Run::new(bed, terms, start.room, flows, &scene.measures, &mut watch);
+    let (mut run, laws) = ready.run(scene, start, &mut watch);
     let stages: Vec<&Stage> = scene.stages.iter().filter(|s| !s.prepares()).collect();
     go(&mut run, &stages, &plan, checkpoint.as_ref())?;
     let done = run.done();

@@ -22,7 +22,7 @@ pub struct Packed {
 /// # Errors
 /// Those of [`crate::bed::run::run_scene`] but for the laws.
 pub fn packed(scene: &Scene, options: &Options) -> Result<Packed> {
-    let mut start = begin(scene, options)?;
+    let mut start = begin(scene, options.seed)?;
     if scene.stages.iter().any(Stage::prepares) {
         pack(scene, &mut start, options)?.record.discard();
     }

@@ -2,19 +2,20 @@
 
 pub(crate) mod acts;
 pub(crate) mod tally;
+mod terms;
 pub mod time_step;
 
+pub use terms::Terms;
+
 use self::tally::Tally;
-use self::time_step::Limits;
 use crate::bed::filling::drain::Drain;
 use crate::bed::filling::feed::Feed;
 use crate::bed::measures::gauge::Gauge;
 use crate::bed::measures::series::{HOPELESS, Left, Progress, Row, View, first_beyond};
-use crate::bed::scene::{Measure, Scene, Stage};
+use crate::bed::scene::{Measure, Stage};
 use crate::dem::bodies::enclosure::{PISTON, Room};
 use crate::dem::dynamics::any::AnyBed;
 use crate::dem::dynamics::state::Packing;
-use crate::material::Material;
 use crate::tape::{Keep, Keeper, TakenUp, keep_fields};
 use crate::{Error, Result};
 use parry3d::math::Vector;
@@ -27,7 +28,7 @@ pub const CHECK_DEEP: u64 = 5;
 const TOO_DEEP: f64 = 0.25;
 
 /// Receives what a run produces as it goes, and is kept with it.
-pub trait Observer: Keep {
+pub trait Observer: Keep + Send {
     /// A new row, the `last` of its stage or not; the bed is as the row says.
     ///
     /// # Errors
@@ -44,41 +45,6 @@ impl Observer for () {
     }
 
     fn stage_ended(&mut self, _: &dyn AnyBed, _: &Stage) {}
-}
-
-/// What a run has to know of its scene beside the bed, the stages and the grains to come.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Terms {
-    /// Gravity, m/s2.
-    pub gravity: Vector,
-    /// Material of the first group of grains.
-    pub material: Material,
-    /// Smallest radius, m.
-    pub smallest: f64,
-    /// A radius of the middle, m.
-    pub radius: f64,
-    /// Contact stiffness over that of the material once the packing is made.
-    pub softening: f64,
-    /// Bounds on the time step.
-    pub limits: Limits,
-    /// Rows of a stage.
-    pub rows: usize,
-}
-
-impl Terms {
-    /// Terms of a scene, with at least `steps` a contact where the scene does not say.
-    #[must_use]
-    pub fn of(scene: &Scene, steps: f64) -> Self {
-        Self {
-            gravity: scene.gravity,
-            material: *scene.material(),
-            smallest: scene.radii()[0],
-            radius: scene.radius(),
-            softening: scene.contact.softening(),
-            limits: Limits::of(scene.time, &scene.groups, &scene.materials, steps),
-            rows: scene.output.rows,
-        }
-    }
 }
 
 /// Where a run is within its stage: all that going on needs beside the bed.
@@ -214,15 +180,26 @@ impl<'a> Run<'a> {
     /// # Errors
     /// As [`Run::stage`].
     pub fn stages(&mut self, stages: &[&Stage]) -> Result<()> {
+        while self.step_through(stages)? {}
+        self.keep(true)
+    }
+
+    /// One step of the first stage that has not ended; false when there is none, or the run stops because of its account.
+    ///
+    /// # Errors
+    /// As [`Run::stage`].
+    pub fn step_through(&mut self, stages: &[&Stage]) -> Result<bool> {
         while let Some(stage) = stages.get(self.ended) {
-            self.stage(stage)?;
+            if self.go_on(stage)? {
+                return Ok(true);
+            }
             if self.is_hopeless() {
                 break;
             }
             self.observer.stage_ended(self.bed.as_ref(), stage);
             self.ended += 1;
         }
-        self.keep(true)
+        Ok(false)
     }
 
     /// Keeps the run if it is time, or `now`; what it was at the last keeping is what an interrupted run goes on from.
@@ -238,6 +215,11 @@ impl<'a> Run<'a> {
         kept
     }
 
+    /// Name of the stage under way.
+    pub(in crate::bed) fn stage_name(&self) -> &str {
+        &self.progress.stage
+    }
+
     /// Whether the account of energies is so far off that the run stops at its last row; a warning says so.
     fn is_hopeless(&self) -> bool {
         first_beyond(&self.rows, HOPELESS).is_some()
@@ -248,33 +230,38 @@ impl<'a> Run<'a> {
     /// # Errors
     /// [`Error::Bed`] when the bed cannot go on, with the reason; what the observer returns.
     pub fn stage(&mut self, stage: &Stage) -> Result<()> {
+        while self.go_on(stage)? {}
+        Ok(())
+    }
+
+    /// One step of a stage; false when it has ended without one.
+    fn go_on(&mut self, stage: &Stage) -> Result<bool> {
         if !self.place.begun {
             self.progress.stage = stage.name().to_owned();
             self.begin(stage)?;
         }
-        loop {
-            let survey = self.prepare()?;
-            self.note(stage, survey.as_ref());
-            for gauge in &mut self.gauges {
-                gauge.read(self.bed.as_ref(), survey.is_some());
-            }
-            let rows = self.rows.len();
-            self.sample(stage)?;
-            if self.rows.len() > rows && self.is_hopeless() {
-                return Ok(());
-            }
-            if self.ends(stage, survey.as_ref())? {
-                self.place.begun = false;
-                self.end(stage);
-                return self.record(true);
-            }
-            self.change(stage);
-            self.tally.particle_steps += self.bed.grains().len() as u64;
-            self.bed.advance()?;
-            if survey.is_some() {
-                self.keep(false)?;
-            }
+        let survey = self.prepare()?;
+        self.note(stage, survey.as_ref());
+        for gauge in &mut self.gauges {
+            gauge.read(self.bed.as_ref(), survey.is_some());
         }
+        let rows = self.rows.len();
+        self.sample(stage)?;
+        if self.rows.len() > rows && self.is_hopeless() {
+            return Ok(false);
+        }
+        if self.ends(stage, survey.as_ref())? {
+            self.place.begun = false;
+            self.end(stage);
+            return self.record(true).map(|()| false);
+        }
+        self.change(stage);
+        self.tally.particle_steps += self.bed.grains().len() as u64;
+        self.bed.advance()?;
+        if survey.is_some() {
+            self.keep(false)?;
+        }
+        Ok(true)
     }
 
     /// Forces of the present instant; every few steps also grains that come in and the checks, whose survey is

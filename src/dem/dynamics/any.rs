@@ -7,8 +7,8 @@ use crate::Result;
 use crate::dem::bodies::belt::Belt;
 use crate::dem::bodies::machine::{Load, Machine};
 use crate::dem::force::effects::ContactLaw;
-use crate::dem::grains::Grains;
 use crate::dem::grains::newcomer::Newcomer;
+use crate::dem::grains::{Grains, Motion, Sphere};
 use crate::tape::Keep;
 use parry3d::math::Vector;
 
@@ -47,6 +47,9 @@ pub trait AnyBed: Send + Keep {
     fn clock(&self) -> (f64, f64, u64);
     /// Grains.
     fn grains(&self) -> &Grains;
+    /// Puts a copy of the grains' places and motions in place of the ones it had, which are returned: whoever shows them without
+    /// copying them keeps these.
+    fn renewed(&mut self) -> (Vec<Sphere>, Vec<Motion>);
     /// Bodies.
     fn machine(&self) -> &Machine;
     /// Bodies, to be driven.
@@ -121,6 +124,15 @@ impl<C: ContactLaw> AnyBed for Bed<C> {
 
     fn grains(&self) -> &Grains {
         &self.grains
+    }
+
+    fn renewed(&mut self) -> (Vec<Sphere>, Vec<Motion>) {
+        let spheres = self.grains.spheres.clone();
+        let motions = self.grains.motions.clone();
+        (
+            std::mem::replace(&mut self.grains.spheres, spheres),
+            std::mem::replace(&mut self.grains.motions, motions),
+        )
     }
 
     fn machine(&self) -> &Machine {

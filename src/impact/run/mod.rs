@@ -192,6 +192,10 @@ where
     fn rebound(&mut self, mut keeper: Option<&mut Keeper>) {
         let interval = self.plan.estimate.contact_time / OUTPUTS;
         while self.failure.is_none() && !self.is_over() {
+            if keeper.as_deref().is_some_and(Keeper::is_stopped) {
+                self.failure = Some("stopped".to_owned());
+                break;
+            }
             if let Some(keeper) = keeper.as_deref_mut().filter(|k| k.is_due()) {
                 // a run that cannot be kept is still worth finishing
                 if let Err(error) = keeper.keep(self) {
