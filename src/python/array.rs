@@ -1,7 +1,7 @@
 //! Arrays: numbers from Python, and memory of Rust's as NumPy arrays.
 
 use crate::border::{raised, refused};
-use impactlaw::unit::{Dimension, argument};
+use impactlaw::unit::{Dimension, Units, argument};
 use pyo3::buffer::PyBuffer;
 use pyo3::exceptions::PyBufferError;
 use pyo3::ffi;
@@ -26,6 +26,9 @@ impl Numbers {
         if let Ok(text) = given.cast::<PyString>() {
             let value = argument::<D>(name, &text.to_string_lossy());
             return Ok(Self::one(value.map_err(|error| raised(py, error))?));
+        }
+        if let Some(magnitude) = magnitude(name, given, &Units::of::<D>())? {
+            return Self::of::<D>(name, &magnitude);
         }
         if given.is_instance_of::<PyFloat>() || given.is_instance_of::<PyInt>() {
             let value = given
@@ -85,6 +88,35 @@ pub fn positive<D: Dimension>(name: &str, given: &Bound<'_, PyAny>) -> PyResult<
             Err(raised(given.py(), error))
         }
     }
+}
+
+/// SI unit of a dimension: the one that is 1.
+pub fn si(units: &Units) -> &'static str {
+    let is_one = |unit: &&&str| (units.parse)(&format!("1 {unit}")).is_ok_and(|one| one == 1.0);
+    units.units.iter().find(is_one).copied().unwrap_or("")
+}
+
+/// Number in SI units of a quantity that knows its unit as those of pint do; none of anything else.
+pub fn magnitude<'py>(
+    name: &str,
+    given: &Bound<'py, PyAny>,
+    units: &Units,
+) -> PyResult<Option<Bound<'py, PyAny>>> {
+    if !(given.hasattr("magnitude")? && given.hasattr("to")?) {
+        return Ok(None);
+    }
+    let powers = [("m3", "m**3"), ("m2", "m**2"), ("s2", "s**2")];
+    let unit = powers
+        .iter()
+        .fold(si(units).to_owned(), |unit, (ours, theirs)| {
+            unit.replace(ours, theirs)
+        });
+    let magnitude = given.call_method1("to", (unit,));
+    let magnitude = magnitude.and_then(|quantity| quantity.getattr("magnitude"));
+    magnitude.map(Some).map_err(|_| {
+        let allowed = format!("must be {}", units.name);
+        raised(given.py(), refused(name, shown(given), &allowed))
+    })
 }
 
 fn no_numbers(name: &str, given: &Bound<'_, PyAny>) -> PyErr {

@@ -1,7 +1,7 @@
 //! Cases: what is asked for, checked by the reader of case files.
 
 use crate::array::floats;
-use crate::border::{long, short};
+use crate::border::{long, short, warn};
 use crate::impacts::Impacts;
 use crate::law::Law;
 use crate::values::{object, written};
@@ -65,6 +65,20 @@ impl Case {
         Self::read(py, short(py, || Document::read(&path))?)
     }
 
+    /// The case of a text that was, or could have been, read from `path`.
+    #[staticmethod]
+    fn _of(py: Python<'_>, text: &str, path: PathBuf) -> PyResult<Self> {
+        Self::read(py, Document::new(&path, text))
+    }
+
+    /// For copies and other processes: a case is its text.
+    #[allow(clippy::type_complexity)] // Python's protocol: what makes it, and of what
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String, PathBuf))> {
+        let case = slf.get();
+        let from = (case.text.clone(), case.case.path.clone());
+        Ok((slf.get_type().getattr("_of")?, from))
+    }
+
     #[getter]
     fn name(&self) -> &str {
         &self.case.name
@@ -118,6 +132,11 @@ impl Case {
                 Ok(Arc::new(simulate_kept(material, radius, plan, &checkpoint)))
             })
         })?;
+        for summary in all.iter().map(|one| &one.impact.summary) {
+            for warning in &summary.warnings {
+                warn(py, &format!("at {} m/s: {warning}", summary.velocity_m_s))?;
+            }
+        }
         Ok(Impacts::of(self.case.clone(), all))
     }
 

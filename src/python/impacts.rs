@@ -6,6 +6,7 @@ use crate::law::Law;
 use crate::values::{columns, numbers, written};
 use impactlaw::PROGRAM;
 use impactlaw::command::compare::add_fitted;
+use impactlaw::command::fit::verdict;
 use impactlaw::command::impact_folder;
 use impactlaw::compare::Comparison;
 use impactlaw::curve::Status;
@@ -71,7 +72,10 @@ impl Impacts {
     fn fit(&self, py: Python<'_>) -> PyResult<Law> {
         let file = long(py, |_| {
             let fit = fit(&self.case, &self.curves())?;
-            Ok(LawFile::of(&fit, &self.case, PROGRAM))
+            let file = LawFile::of(&fit, &self.case, PROGRAM);
+            // it warns of what the program warns of
+            verdict(&file);
+            Ok(file)
         })?;
         Law::of_file(py, file)
     }
@@ -111,6 +115,18 @@ impl Impacts {
                 (one.rebound).write(&map("particle_rebound.csv"), &provenance)
             })
         })
+    }
+
+    fn _repr_html_(slf: &Bound<'_, Self>) -> PyResult<Py<PyAny>> {
+        let show = slf.py().import("impactlaw._show")?;
+        Ok(show.call_method1("impacts_html", (slf,))?.unbind())
+    }
+
+    /// Draws force against displacement of every impact, and of `law` if one is given, with matplotlib.
+    #[pyo3(signature = (law = None))]
+    fn plot(slf: &Bound<'_, Self>, law: Option<&Bound<'_, Law>>) -> PyResult<Py<PyAny>> {
+        let show = slf.py().import("impactlaw._show")?;
+        Ok(show.call_method1("plot_impacts", (slf, law))?.unbind())
     }
 
     fn __repr__(&self) -> String {

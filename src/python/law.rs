@@ -141,6 +141,20 @@ impl Law {
         Self::read(py, file, form, Some(hash))
     }
 
+    /// The law of a law file's text.
+    #[staticmethod]
+    fn from_toml(py: Python<'_>, text: &str) -> PyResult<Self> {
+        let document = Document::new("law.toml".as_ref(), text);
+        let file = short(py, || LawFile::parse(&document))?;
+        Self::read(py, file, None, Some(document.hash()))
+    }
+
+    /// For copies and other processes: a law with a law file is its text.
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
+        let text = slf.get().toml(slf.py())?;
+        Ok((slf.get_type().getattr("from_toml")?, (text,)))
+    }
+
     #[getter]
     fn name(&self) -> &str {
         &self.name

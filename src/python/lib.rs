@@ -28,5 +28,5 @@ mod _impactlaw {
     #[pymodule_export]
     use crate::law::{Law, Rebound, theories};
     #[pymodule_export]
-    use crate::program::{columns_of, main, verb, version};
+    use crate::program::{columns_of, fall, main, verb, version};
 }

@@ -39,6 +39,12 @@ pub fn columns_of(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, PyDict>> 
     columns_of_text(py, &text)
 }
 
+/// Falls, as the library would if it had a fault: what must not cross the border.
+#[pyfunction]
+pub fn fall(py: Python<'_>, text: &str) -> PyResult<()> {
+    short(py, || panic!("{text}"))
+}
+
 /// Name and version of the program.
 #[pyfunction]
 pub fn version() -> &'static str {

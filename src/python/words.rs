@@ -1,6 +1,6 @@
 //! Words: keywords of Python as the text of a case file, which the one reader of case files checks.
 
-use crate::array::shown;
+use crate::array::{magnitude, shown, si};
 use crate::border::{raised, refused};
 use impactlaw::Error;
 use impactlaw::case::Case;
@@ -84,6 +84,11 @@ fn value(name: &str, given: &Bound<'_, PyAny>, kind: Option<&Kind>) -> PyResult<
     if let Ok(text) = given.cast::<PyString>() {
         return Ok(Value::String(text.to_string_lossy().into_owned()));
     }
+    if let Some(units) = kind.and_then(|kind| quantity(inner(kind)))
+        && let Some(magnitude) = magnitude(name, given, &units)?
+    {
+        return value(name, &magnitude, kind);
+    }
     if let Ok(truth) = given.cast::<PyBool>() {
         return Ok(Value::Boolean(truth.is_true()));
     }
@@ -163,10 +168,4 @@ fn quantity(kind: &Kind) -> Option<Units> {
         Kind::Either(one, other) => quantity(one).or_else(|| quantity(other)),
         _ => None,
     }
-}
-
-/// SI unit of a dimension: the one that is 1.
-fn si(units: &Units) -> &'static str {
-    let is_one = |unit: &&&str| (units.parse)(&format!("1 {unit}")).is_ok_and(|one| one == 1.0);
-    units.units.iter().find(is_one).copied().unwrap_or("")
 }

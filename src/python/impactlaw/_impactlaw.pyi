@@ -14,6 +14,7 @@ __all__ = [
     "Law",
     "Rebound",
     "columns_of",
+    "fall",
     "main",
     "theories",
     "verb",
@@ -57,6 +58,9 @@ class Case:
     @staticmethod
     def from_toml(source: Place, *, name: str = "case") -> Case:
         """A case file, or its text: a str that holds a line break is a text, and `name` is the case's name."""
+
+    @staticmethod
+    def _of(text: str, path: Place) -> Case: ...
 
     @property
     def name(self) -> str: ...
@@ -109,6 +113,10 @@ class Impacts:
     def compare(self, law: Law | None = None, *, unverified: bool = False) -> dict[str, Column]:
         """Rows of `compare.csv` as columns: the impacts, theories, and `law` if it has a law file."""
 
+    def plot(self, law: Law | None = None) -> Any:
+        """Force against displacement of every impact, and under `law`, as a figure of matplotlib, which has to be installed."""
+
+    def _repr_html_(self) -> str: ...
     def save(self, folder: Place) -> None:
         """Writes the folders `impact_V*` that `impactlaw fit` and `compare` read."""
 
@@ -146,6 +154,10 @@ class Law:
     def __new__(cls, path: Place, form: Literal["closed_form", "spline", "hertz"] | None = None) -> Law: ...
     @property
     def name(self) -> str: ...
+    @staticmethod
+    def from_toml(text: str) -> Law:
+        """The law of a law file's text."""
+
     @property
     def form(self) -> str:
         """`closed_form`, `spline`, `hertz`, or `theory`."""
@@ -279,6 +291,9 @@ def theories() -> list[Theory]:
 
 def version() -> str:
     """Name and version of the program."""
+
+def fall(text: str) -> None:
+    """Falls, as the library would if it had a fault: for the tests."""
 
 def main(words: Sequence[str]) -> int: ...
 def verb(words: Sequence[str]) -> bool: ...

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ._impactlaw import Law
+from ._impactlaw import Impacts, Law
 
 MOST_ROWS = 30
 LOADING, BACK = "#1f5fa8", "#b5482f"
@@ -68,4 +68,27 @@ def plot_law(law: Law, *, speeds: int = 40) -> Any:
     velocity = np.geomspace(low, max(high, 1.01 * low), speeds)
     right.semilogx(velocity, law.rebound(velocity).restitution, color=LOADING)
     right.set(xlabel="speed, m/s", ylabel="restitution", ylim=(0, 1.02))
+    return figure
+
+
+SHOWN = ["velocity_m_s", "restitution", "max_force_N", "max_displacement_m", "residual_displacement_m", "contact_time_s"]
+
+
+def impacts_html(runs: Impacts) -> str:
+    """Figures of every impact."""
+    return _rows([*SHOWN, "status"], [[*(one.figures[name] for name in SHOWN), one.status] for one in runs])
+
+
+def plot_impacts(runs: Impacts, law: Law | None = None) -> Any:
+    """Force against displacement of every impact, and under a law; a figure of matplotlib."""
+    from matplotlib import pyplot
+
+    figure, axes = pyplot.subplots(figsize=(6, 4), constrained_layout=True)
+    for one in runs:
+        columns = one.columns
+        axes.plot(1e6 * columns["displacement_m"], columns["force_N"], color=LOADING, linewidth=1)
+        if law is not None:
+            path = law.trajectory(one.velocity)
+            axes.plot(1e6 * path["displacement_m"], path["force_N"], color=BACK, linewidth=1, linestyle="--")
+    axes.set(xlabel="displacement, um", ylabel="force, N", title="impacts" if law is None else f"impacts, and law {law.name} (dashed)")
     return figure

@@ -127,6 +127,13 @@ def test_no_argument_makes_the_library_fall(tmp_path: Path) -> None:
     assert outcomes[True] > 20 and outcomes[False] > 500, outcomes
 
 
+def test_a_fault_of_the_library_is_an_error_and_no_panic() -> None:
+    with pytest.raises(impactlaw.Error, match="a fault that should be reported: on purpose"):
+        impactlaw._impactlaw.fall("on purpose")
+    with pytest.raises(impactlaw.Error, match="again"):
+        impactlaw._impactlaw.fall("again")
+
+
 def resident() -> int:
     return int(Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
 

@@ -3,6 +3,7 @@
 import csv
 import io
 import json
+import pickle
 import time
 from pathlib import Path
 
@@ -154,3 +155,38 @@ def test_forces_beyond_the_law_are_warned_of() -> None:
     law = impactlaw.Law(SOLDER)
     with pytest.warns(UserWarning, match="1 of the displacements lie beyond"):
         law.force([1e-6, 0.9 * law.radius])
+
+
+def test_quantities_of_pint_are_taken_with_their_units() -> None:
+    pint = pytest.importorskip("pint")
+    unit = pint.UnitRegistry()
+    law = impactlaw.Law(SOLDER)
+    delta = np.array([0.5, 1.0]) * unit.um
+    assert np.allclose(law.force(delta), law.force([5e-7, 1e-6]), rtol=1e-14)
+    assert law.rebound(100 * unit.cm / unit.s).restitution == law.rebound(1.0).restitution
+    case = impactlaw.Case(
+        radius=0.25 * unit.mm, density=8.96 * unit.g / unit.cm**3, young_modulus=128 * unit.GPa, poisson_ratio=0.343,
+        yield_strength=162 * unit.MPa, velocities=[1 * unit.m / unit.s, 4, "10 m/s"], tolerance=0.05,
+    )  # fmt: skip
+    assert case.radius == pytest.approx(2.5e-4) and case.velocities.tolist() == [1.0, 4.0, 10.0]
+    assert case.material["density_kg_m3"] == pytest.approx(8960)
+    with pytest.raises(impactlaw.Error, match="displacement: .*must be a length"):
+        law.force(1 * unit.kg)
+    with pytest.raises(impactlaw.Error, match="radius: .*must be a length"):
+        impactlaw.Case(radius=1 * unit.s)
+
+
+def test_notebooks_are_shown_tables() -> None:
+    runs = impactlaw.Case.from_toml(COPPER).impact()
+    assert runs._repr_html_().count("<tr>") == 4
+    assert "case" in impactlaw.Case.from_toml(COPPER).atlas()._repr_html_()
+
+
+def test_cases_and_laws_go_to_other_processes() -> None:
+    case = impactlaw.Case.from_toml(COPPER, name="cu")
+    again = pickle.loads(pickle.dumps(case))
+    assert again.toml == case.toml and again.name == "cu"
+    law = case.atlas()
+    assert pickle.loads(pickle.dumps(law)).toml == law.toml
+    with pytest.raises(impactlaw.Error, match="has no law file"):
+        pickle.dumps(case.theory("hertz"))
