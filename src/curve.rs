@@ -388,8 +388,24 @@ impl Impact {
     ///
     /// # Errors
     /// [`Error::File`] and [`Error::Syntax`] as for the two files; [`Error::File`] when they are not as they were written;
-    /// [`Error::Refused`] for an impact of two deformable bodies, of which nothing here is made.
+    /// [`Error::Refused`] for an impact of two deformable bodies, which [`Impact::read_any`] reads.
     pub fn read(folder: &Path) -> Result<Self> {
+        let impact = Self::read_any(folder)?;
+        match &impact.summary.target {
+            None => Ok(impact),
+            Some(target) => Err(Error::Refused {
+                what: folder.join("summary.json").display().to_string(),
+                found: format!("an impact on a deformable {}", target.shape),
+                allowed: "must be one on a rigid wall".to_owned(),
+            }),
+        }
+    }
+
+    /// Read an impact on a rigid wall or of two deformable bodies.
+    ///
+    /// # Errors
+    /// As [`Impact::read`], but for the last.
+    pub fn read_any(folder: &Path) -> Result<Self> {
         let path = folder.join("summary.json");
         let text = std::fs::read_to_string(&path).map_err(Error::file("read", &path))?;
         let curve = folder.join("curve.csv");
@@ -412,14 +428,6 @@ impl Impact {
             message: e.to_string(),
             place: None,
         })?;
-        if let Some(target) = &summary.target {
-            return Err(Error::Refused {
-                what: path.display().to_string(),
-                found: format!("an impact on a deformable {}", target.shape),
-                allowed: "laws, comparisons and studies are made of impacts on a rigid wall"
-                    .to_owned(),
-            });
-        }
         let samples = rows_of(&bytes, &curve)?;
         Ok(Impact {
             summary,

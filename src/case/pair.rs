@@ -2,7 +2,7 @@
 
 use super::{Case, slips};
 use crate::document::Document;
-use crate::material::Material;
+use crate::material::{Effective, Material};
 use crate::shape::Shape;
 use crate::{Error, Result};
 use std::path::Path;
@@ -32,6 +32,24 @@ impl TargetShape {
             TargetShape::Sphere { .. } => "sphere",
             TargetShape::Plate { .. } => "plate",
             TargetShape::HalfSpace => "half-space",
+        }
+    }
+
+    /// Radius of a sphere, m; none of what is flat.
+    #[must_use]
+    pub const fn radius(self) -> Option<f64> {
+        match self {
+            TargetShape::Sphere { radius } => Some(radius),
+            TargetShape::Plate { .. } | TargetShape::HalfSpace => None,
+        }
+    }
+
+    /// Thickness of a plate, m; none of others.
+    #[must_use]
+    pub const fn thickness(self) -> Option<f64> {
+        match self {
+            TargetShape::Plate { thickness } => Some(thickness),
+            TargetShape::Sphere { .. } | TargetShape::HalfSpace => None,
         }
     }
 }
@@ -90,6 +108,24 @@ impl Asked {
         Ok(Asked::Pair(pair))
     }
 
+    /// The particle, its speeds, and where it was asked.
+    #[must_use]
+    pub fn particle(&self) -> &Case {
+        match self {
+            Asked::RigidWall(case) => case,
+            Asked::Pair(pair) => &pair.particle,
+        }
+    }
+
+    /// The two bodies, where there are two.
+    #[must_use]
+    pub fn pair(&self) -> Option<&PairCase> {
+        match self {
+            Asked::RigidWall(_) => None,
+            Asked::Pair(pair) => Some(pair),
+        }
+    }
+
     /// Either with the speeds of `--velocity`, when any are given.
     ///
     /// # Errors
@@ -106,6 +142,22 @@ impl Asked {
 }
 
 impl PairCase {
+    /// The case of the sphere that meets a rigid wall as the two bodies meet each other ([`Effective`]), at the same speeds.
+    #[must_use]
+    pub fn effective(&self) -> Case {
+        let Effective { radius, material } = Effective::of(
+            &self.particle.material,
+            self.particle.radius,
+            &self.target.material,
+            self.target.shape.radius(),
+        );
+        Case {
+            radius,
+            material,
+            ..self.particle.clone()
+        }
+    }
+
     /// The second body as if it were the particle.
     fn target_as_particle(&self) -> Case {
         Case {
@@ -134,7 +186,7 @@ impl PairCase {
         if case.bed.is_some() {
             return rejected(
                 "bed.scene",
-                "must be left out: beds need the law of one body, which is not made",
+                "must be left out: name the pair's law in a scene of both materials (`[[pair]] law`) and run it by `impactlaw bed`",
             );
         }
         Ok(())
@@ -143,7 +195,7 @@ impl PairCase {
 
 /// Refusal of a second body where a case of a rigid wall was to be read.
 pub(super) fn refusal(document: &Document) -> Error {
-    let allowed = "must be left out here: an impact on a deformable wall is run by `impactlaw impact` and planned by `impactlaw plan`; \
-                   all else is made of impacts on a rigid wall";
+    let allowed = "must be left out here: an impact on a deformable wall is planned, run, fitted and compared by `impactlaw plan`, `impact`, `fit`, \
+                   `compare` and `run`; all else is made of impacts on a rigid wall";
     document.reject("wall.material", allowed)
 }

@@ -21,7 +21,7 @@ pub(super) struct WallTable {
 keys! {
     WallTable {
         friction: key("Coulomb's friction coefficient of a rigid wall", "0 to 2", "0.3").or("0"),
-        material: table("what a deformable wall is made of: constants, or the name of one of `models/constants/`; with it the impact is one of two bodies, run by `impact` alone").or("rigid"),
+        material: table("what a deformable wall is made of: constants, or the name of one of `models/constants/`; with it the impact is one of two bodies, which `plan`, `impact`, `fit`, `compare` and `run` know").or("rigid"),
         thickness: key("of a deformable wall: a plate that is held at its back", "> 0", "'10 mm'").or("half-space"),
         radius: key("of a second sphere, which takes the place of the wall and is free to move", "> 0", "'1 mm'").or("a wall"),
     }

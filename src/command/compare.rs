@@ -1,8 +1,10 @@
 //! `compare`: from impacts and a law file to `compare.csv` and `compare.md`.
 
 use super::fit::read_impacts;
+use super::pair_laws::{law_of_pair, shortcuts};
 use super::{Command, Context, Verdict, check_writable, print_json};
 use crate::case::Case;
+use crate::case::pair::{Asked, PairCase};
 use crate::compare::Comparison;
 use crate::contact::{LawVisitor, NormalLaw};
 use crate::curve::Particle;
@@ -25,6 +27,10 @@ pub struct CompareArgs {
     /// Output folder (default: the impacts' folder; `compare-NAME` in it for a law that is not the one there).
     #[arg(short, long)]
     pub out: Option<PathBuf>,
+    /// Of a pair: laws of the particle's and of the second body's material, which are compared in series: law files, or `atlas` (default:
+    /// those of the atlas; Hertz's of what does not yield).
+    #[arg(long, num_args = 2, value_names = ["PARTICLE", "TARGET"])]
+    pub series: Option<Vec<PathBuf>>,
     /// Compare the theories too whose constants are unverified.
     #[arg(long)]
     pub unverified: bool,
@@ -38,6 +44,7 @@ impl Command for CompareArgs {
         "impactlaw compare cases/thesis-4-4.toml",
         "impactlaw compare cases/thesis-4-4.toml --law atlas",
         "impactlaw compare cases/thesis-4-4.toml --law models/elastic-perfectly-plastic-ey80.toml",
+        "impactlaw compare cases/steel-ball-on-plate.toml --series atlas atlas",
     ];
 
     /// Run the verb: write both files and print the summary over all speeds.
@@ -45,7 +52,8 @@ impl Command for CompareArgs {
     /// # Errors
     /// Those of reading the case, the impacts and the law, and of writing the files.
     fn run(&self, context: &Context) -> Result<Verdict> {
-        let case = Case::read(&self.case)?;
+        let asked = Asked::read(&self.case)?;
+        let case = asked.particle();
         case.of_a_normal_impact("a comparison with laws of spheres")?;
         let folder = self
             .impacts
@@ -62,13 +70,36 @@ impl Command for CompareArgs {
                 ),
             });
         }
+        match &asked {
+            Asked::RigidWall(case) => self.of_one(case, &law, folder, context),
+            Asked::Pair(pair) => self.of_pair(pair, &law, folder, context),
+        }
+    }
+}
+
+impl CompareArgs {
+    /// Compare the law of one material.
+    fn of_one(
+        &self,
+        case: &Case,
+        law: &Path,
+        folder: PathBuf,
+        context: &Context,
+    ) -> Result<Verdict> {
+        if self.series.is_some() {
+            return Err(Error::Argument {
+                argument: "--series".to_owned(),
+                found: "a case of a rigid wall".to_owned(),
+                allowed: "is for two deformable bodies, a case with `[wall.material]`".to_owned(),
+            });
+        }
         let from_atlas = law == Path::new(ATLAS);
         let file = match from_atlas {
             true => LawFile::of_atlas(&case.name, &case.material, case.radius)?,
-            false => LawFile::read(&law)?,
+            false => LawFile::read(law)?,
         };
-        let impacts = read_impacts(&folder, &case)?;
-        let (out, provenance) = self.place(&law, folder, context.provenance(&case.hash))?;
+        let impacts = read_impacts(&folder, case, None)?;
+        let (out, provenance) = self.place(law, folder, context.provenance(&case.hash))?;
         check_writable(&out)?;
         // a law serves bodies of every radius, but of its own material only
         let of_law = Particle::of(&file.material(), case.radius);
@@ -86,17 +117,47 @@ impl Command for CompareArgs {
             true => file.law()?.visit(Added(&mut comparison, ATLAS)),
             false => add_fitted(&mut comparison, &file)?,
         }
+        self.finish(comparison, &out, &provenance, context)
+    }
+
+    /// Compare the law of a pair, the series of two laws, and the theories that are stated for two bodies.
+    fn of_pair(
+        &self,
+        pair: &PairCase,
+        law: &Path,
+        folder: PathBuf,
+        context: &Context,
+    ) -> Result<Verdict> {
+        let case = &pair.particle;
+        let file = law_of_pair(law, pair)?;
+        let shortcuts = shortcuts(pair, self.series.as_deref())?;
+        let impacts = read_impacts(&folder, case, Some(&pair.target))?;
+        let (out, provenance) = self.place(law, folder, context.provenance(&case.hash))?;
+        check_writable(&out)?;
+        context.open_log(&out, "compare", &case.hash);
+        let mut comparison = Comparison::of_pair(file.bodies(), &impacts);
+        add_fitted(&mut comparison, file.file())?;
+        shortcuts.add_to(&mut comparison)?;
+        self.finish(comparison, &out, &provenance, context)
+    }
+
+    /// Add the theories, write both files and say what was found.
+    fn finish(
+        &self,
+        mut comparison: Comparison,
+        out: &Path,
+        provenance: &str,
+        context: &Context,
+    ) -> Result<Verdict> {
         comparison.add_theories(self.unverified);
-        write(&comparison, &out, &provenance)?;
+        write(&comparison, out, provenance)?;
         match self.json {
             true => print_json(comparison.rows())?,
             false => context.say(&comparison.summary_markdown())?,
         }
         Ok(Verdict::Met)
     }
-}
 
-impl CompareArgs {
     /// Output folder, and what stands on top of its files.
     fn place(&self, law: &Path, impacts: PathBuf, provenance: String) -> Result<(PathBuf, String)> {
         if let Some(out) = &self.out {

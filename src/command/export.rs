@@ -66,7 +66,18 @@ impl Command for ExportArgs {
         }
         let targets = targets(&self.to, self.check)?;
         let form = self.form.as_deref().map(form).transpose()?;
-        let law = Portable::read(&self.law, form)?;
+        let law = Portable::read_any(&self.law, form)?;
+        if let (Some(bodies), Some(with)) = (law.pair(), &self.with) {
+            return Err(Error::Argument {
+                argument: "--with".to_owned(),
+                found: with.display().to_string(),
+                allowed: format!(
+                    "must be left out: {} is the law of both bodies already, {}",
+                    self.law.display(),
+                    bodies.bodies()
+                ),
+            });
+        }
         let other = self.with.as_deref();
         let other = other.map(|file| Portable::read(file, form)).transpose()?;
         let artifacts = match &other {
@@ -259,7 +270,9 @@ fn check_targets(law: &Portable, targets: &[Target], context: &Context) -> Resul
         [] => &Target::ALL,
         targets => targets,
     };
-    let checks: Vec<_> = targets.iter().flat_map(|t| checks(*t)).collect();
+    let holds = |target: &&Target| law.pair().is_none() || target.is_of_pairs();
+    let targets = targets.iter().filter(holds);
+    let checks: Vec<_> = targets.flat_map(|t| checks(*t)).collect();
     if checks.is_empty() {
         tracing::warn!("no program reads a table: there is nothing to check");
     }

@@ -2,16 +2,19 @@
 
 use super::{Command, Context, Verdict, check_writable, impact_folder, print_json};
 use crate::case::Case;
+use crate::case::pair::{Asked, Target};
 use crate::curve::{Impact, Particle};
 use crate::document::Document;
-use crate::fit::{INERTIA_GAIN, fit};
-use crate::law::LawFile;
+use crate::fit::{INERTIA_GAIN, check_pair, fit, fit_pair};
 use crate::law::file::{LeftOutRow, QualityRow, plain};
+use crate::law::pair::PairTable;
+use crate::law::{LawFile, PairLaw};
+use crate::unit::engineering;
 use crate::{Error, PROGRAM, Result};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
-/// Fit a contact law to simulated impacts: `law.toml`.
+/// Fit a contact law to simulated impacts, of a material or of a pair of bodies: `law.toml`.
 #[derive(Debug, Args)]
 pub struct FitArgs {
     /// Case file the impacts were made from.
@@ -31,6 +34,7 @@ impl Command for FitArgs {
     const EXAMPLES: &'static [&'static str] = &[
         "impactlaw fit cases/thesis-4-4.toml",
         "impactlaw fit cases/thesis-4-4.toml --impacts out/thesis-4-4 --out steel.toml",
+        "impactlaw fit cases/steel-ball-on-plate.toml",
     ];
 
     /// Run the verb: [`Verdict::Missed`] when the law is off by more than its threshold somewhere.
@@ -38,20 +42,24 @@ impl Command for FitArgs {
     /// # Errors
     /// Those of reading the case and the impacts, of the fit, and of writing the law.
     fn run(&self, context: &Context) -> Result<Verdict> {
-        let case = Case::read(&self.case)?;
-        check_case(&case)?;
+        let asked = Asked::read(&self.case)?;
+        check_asked(&asked)?;
+        let case = asked.particle();
         let folder = self
             .impacts
             .clone()
             .unwrap_or_else(|| Path::new("out").join(&case.name));
         let target = self.out.clone().unwrap_or_else(|| folder.join("law.toml"));
-        check_target(&target, &case)?;
-        let impacts = read_impacts(&folder, &case)?;
+        check_target(&target, case, asked.pair().map(PairTable::of).as_ref())?;
+        let impacts = read_impacts(&folder, case, asked.pair().map(|pair| &pair.target))?;
         let here = |folder: &&Path| !folder.as_os_str().is_empty();
         let folder = target.parent().filter(here).unwrap_or(Path::new("."));
         check_writable(folder)?;
         context.open_log(folder, "fit", &case.hash);
-        let file = LawFile::of(&fit(&case, &impacts)?, &case, PROGRAM);
+        let file = match &asked {
+            Asked::RigidWall(case) => LawFile::of(&fit(case, &impacts)?, case, PROGRAM),
+            Asked::Pair(pair) => PairLaw::of(&fit_pair(pair, &impacts)?, pair, PROGRAM).into_file(),
+        };
         file.write(&target)?;
         match self.json {
             true => print_json(&file)?,
@@ -77,11 +85,12 @@ pub fn verdict(file: &LawFile) -> Verdict {
     Verdict::Missed
 }
 
-/// That a law of `case` may be written to `target`: nothing stands there, or an earlier law of the same case.
+/// That a law of `case`, or of the `pair` of bodies it is of, may be written to `target`: nothing stands there, or an earlier law of the
+/// same case.
 ///
 /// # Errors
 /// [`Error::Argument`] naming whose law, or that no law, stands there.
-pub fn check_target(target: &Path, case: &Case) -> Result<()> {
+pub fn check_target(target: &Path, case: &Case, pair: Option<&PairTable>) -> Result<()> {
     if !target.exists() {
         return Ok(());
     }
@@ -90,7 +99,8 @@ pub fn check_target(target: &Path, case: &Case) -> Result<()> {
         found,
         allowed: "it is not overwritten; give another file with `--out`, or remove it".to_owned(),
     };
-    let Ok(there) = Document::read(target).and_then(|document| LawFile::parse(&document)) else {
+    let Ok(there) = Document::read(target).and_then(|document| LawFile::parse_any(&document))
+    else {
         return Err(refuse("a file that is no law of this version".to_owned()));
     };
     if there.provenance.case != plain(&case.name) {
@@ -99,8 +109,15 @@ pub fn check_target(target: &Path, case: &Case) -> Result<()> {
             there.provenance.case
         )));
     }
-    let before = Particle::of(&there.material(), there.provenance.radius_m);
-    let differences = before.differences(&Particle::of(&case.material, case.radius));
+    let differences = match (&there.pair, pair) {
+        (Some(before), Some(now)) => before.differences(now),
+        (None, None) => {
+            let before = Particle::of(&there.material(), there.provenance.radius_m);
+            before.differences(&Particle::of(&case.material, case.radius))
+        }
+        (Some(before), None) => vec![format!("{} instead of a rigid wall", before.bodies())],
+        (None, Some(now)) => vec![format!("a rigid wall instead of {}", now.bodies())],
+    };
     if !differences.is_empty() {
         tracing::warn!(
             "{} replaces a law of case {} with {}",
@@ -112,6 +129,17 @@ pub fn check_target(target: &Path, case: &Case) -> Result<()> {
     Ok(())
 }
 
+/// Checks that a normal law can be made of the impacts of what was asked.
+///
+/// # Errors
+/// As [`check_case`]; of a pair for a flow stress of either body that depends on the size.
+pub fn check_asked(asked: &Asked) -> Result<()> {
+    match asked {
+        Asked::RigidWall(case) => check_case(case),
+        Asked::Pair(pair) => check_pair(pair),
+    }
+}
+
 /// Checks that a normal law can be made of the impacts of a case.
 ///
 /// # Errors
@@ -121,12 +149,13 @@ pub fn check_case(case: &Case) -> Result<()> {
     crate::fit::check_material(&case.material)
 }
 
-/// Impacts of the case in `folder`, slowest first: those of its speeds, of its own material and radius. Folders of other speeds
-/// are left out by name, and speeds without a folder are named.
+/// Impacts of the case in `folder`, slowest first: those of its speeds, of its own material and radius, on its own `target`, or on a
+/// rigid wall where it has none. Folders of other speeds are left out by name, and speeds without a folder are named.
 ///
 /// # Errors
-/// [`Error::Argument`] when an impact of one of its speeds is another particle's, or when there is none; and those of each file.
-pub fn read_impacts(folder: &Path, case: &Case) -> Result<Vec<Impact>> {
+/// [`Error::Argument`] when an impact of one of its speeds is another particle's or on another wall, or when there is none; and those of
+/// each file.
+pub fn read_impacts(folder: &Path, case: &Case, target: Option<&Target>) -> Result<Vec<Impact>> {
     let mut impacts = Vec::new();
     let mut missing = Vec::new();
     for &velocity in &case.velocities {
@@ -135,8 +164,11 @@ pub fn read_impacts(folder: &Path, case: &Case) -> Result<Vec<Impact>> {
             missing.push(format!("{velocity} m/s"));
             continue;
         }
-        let impact = Impact::read(&path)?;
-        check_owner(&impact, &path, velocity, case)?;
+        let impact = match target {
+            None => Impact::read(&path)?,
+            Some(_) => Impact::read_any(&path)?,
+        };
+        check_owner(&impact, &path, velocity, case, target)?;
         impacts.push(impact);
     }
     if impacts.is_empty() {
@@ -168,8 +200,52 @@ pub fn read_impacts(folder: &Path, case: &Case) -> Result<Vec<Impact>> {
     Ok(impacts)
 }
 
-/// That an impact is of the case's particle and speed.
-fn check_owner(impact: &Impact, path: &Path, velocity: f64, case: &Case) -> Result<()> {
+/// What of the wall of an impact is not as the case has it.
+fn of_another_wall(impact: &Impact, target: Option<&Target>) -> Vec<String> {
+    let (found, asked) = match (&impact.summary.target, target) {
+        (None, None) => return Vec::new(),
+        (Some(found), Some(asked)) => (found, asked),
+        (None, Some(asked)) => {
+            return vec![format!("a rigid wall instead of a {}", asked.shape.name())];
+        }
+        (Some(found), None) => {
+            return vec![format!(
+                "a deformable {} instead of a rigid wall",
+                found.shape
+            )];
+        }
+    };
+    let of = |material: &crate::material::Material| Particle::of(material, 1.0);
+    let mut all = of(&found.material.material()).differences(&of(&asked.material));
+    let same = |a: Option<f64>, b: Option<f64>| match (a, b) {
+        (Some(a), Some(b)) => (a / b - 1.0).abs() < 1e-12,
+        (a, b) => a == b,
+    };
+    let words = |shape: &str, length: Option<f64>| match length {
+        Some(length) => format!("a {shape} of {}", engineering(length, "m", 6)),
+        None => format!("a {shape}"),
+    };
+    let shape = asked.shape;
+    let (own, other) = (shape.radius(), shape.thickness());
+    if found.shape != shape.name() || !same(found.radius_m, own) || !same(found.thickness_m, other)
+    {
+        all.push(format!(
+            "{} instead of {}",
+            words(&found.shape, found.radius_m.or(found.thickness_m)),
+            words(shape.name(), own.or(other))
+        ));
+    }
+    all.iter().map(|what| format!("wall: {what}")).collect()
+}
+
+/// That an impact is of the case's particle, wall and speed.
+fn check_owner(
+    impact: &Impact,
+    path: &Path,
+    velocity: f64,
+    case: &Case,
+    target: Option<&Target>,
+) -> Result<()> {
     let refuse = |found: String| {
         Err(Error::Argument {
             argument: path.display().to_string(),
@@ -185,7 +261,8 @@ fn check_owner(impact: &Impact, path: &Path, velocity: f64, case: &Case) -> Resu
     let Some(particle) = &summary.particle else {
         return refuse("an impact that does not say whose it is".to_owned());
     };
-    let differences = particle.differences(&Particle::of(&case.material, case.radius));
+    let mut differences = particle.differences(&Particle::of(&case.material, case.radius));
+    differences.extend(of_another_wall(impact, target));
     if !differences.is_empty() {
         return refuse(differences.join(", "));
     }
@@ -256,10 +333,15 @@ fn push_inertia(text: &mut String, file: &LawFile) {
             continue;
         };
         let group = material.density * file.valid.velocity_max_m_s.powi(2) / flow.yield_strength();
+        let up_to = match file.pair {
+            None => format!("up to rho V^2/Y = {group:.2e} "),
+            // the density that stands for both bodies is none of a material
+            Some(_) => String::new(),
+        };
         let line = match coefficient {
             Some(kappa) => format!("{form:12} inertia {kappa:.2}\n"),
             None => format!(
-                "{form:12} no inertia: up to rho V^2/Y = {group:.2e} it does not lower the largest error by {:.0} %\n",
+                "{form:12} no inertia: {up_to}it does not lower the largest error by {:.0} %\n",
                 100.0 * INERTIA_GAIN
             ),
         };

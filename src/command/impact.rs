@@ -375,7 +375,7 @@ const PAIR_MAPS: [&str; 4] = [
 ///
 /// # Errors
 /// Those of writing the results.
-fn pair_impacts(
+pub(super) fn pair_impacts(
     pair: &PairCase,
     mut plans: Vec<PairPlan>,
     out: &Path,

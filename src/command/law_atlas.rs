@@ -61,7 +61,7 @@ impl LawAtlasArgs {
                     allowed: "must be given once: laws are named after it".to_owned(),
                 });
             }
-            super::fit::check_target(&path, case)?;
+            super::fit::check_target(&path, case, None)?;
             laws.push((path, file));
         }
         let folder = match &self.study {

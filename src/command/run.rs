@@ -1,10 +1,12 @@
 //! `run`: the whole path from a case file to law, comparison, bed and report.
 
-use super::show::{self, NamedLaw};
-use super::{Command, Context, Verdict, bed, compare, impact, output_folder, print_json};
+use super::run_pair::Wanted;
+use super::show::{self, NamedLaw, Shown};
+use super::{Command, Context, Verdict, bed, compare, impact, output_folder, print_json, run_pair};
 use crate::bed::run::BedReport;
 use crate::bed::scene::Scene;
 use crate::case::Case;
+use crate::case::pair::Asked;
 use crate::compare::Comparison;
 use crate::curve::Impact;
 use crate::document::Document;
@@ -73,6 +75,7 @@ impl Command for RunArgs {
     const EXAMPLES: &'static [&'static str] = &[
         "impactlaw run cases/thesis-4-4.toml",
         "impactlaw run cases/solder-ball.toml --no-bed --out out/solder",
+        "impactlaw run cases/steel-ball-on-plate.toml",
     ];
 
     /// Run the verb; all input is read and checked before any work starts.
@@ -82,7 +85,18 @@ impl Command for RunArgs {
     fn run(&self, context: &Context) -> Result<Verdict> {
         let started = Instant::now();
         let document = Document::read(&self.case)?;
-        let case = Case::from_document(&document)?;
+        let case = match Asked::from_document(&document)? {
+            Asked::RigidWall(case) => case,
+            Asked::Pair(pair) => {
+                let wanted = Wanted {
+                    out: self.out.as_deref(),
+                    interval: impact::interval(&self.checkpoint)?,
+                    unverified: self.unverified,
+                    json: self.json,
+                };
+                return run_pair::run(&wanted, &pair, &document, context);
+            }
+        };
         super::fit::check_case(&case)?;
         let interval = impact::interval(&self.checkpoint)?;
         let scene = case
@@ -98,7 +112,7 @@ impl Command for RunArgs {
             );
         }
         let out = output_folder(self.out.as_deref(), &case.name)?;
-        super::fit::check_target(&out.join("law.toml"), &case)?;
+        super::fit::check_target(&out.join("law.toml"), &case, None)?;
         context.open_log(&out, "run", &case.hash);
         context
             .log
@@ -185,6 +199,7 @@ fn report(
         .transpose()?;
     RunPage {
         case,
+        target: None,
         case_text: document.text(),
         command: &context.command,
         version: PROGRAM,
@@ -196,7 +211,13 @@ fn report(
             .map(|impact| impact.summary.clone())
             .collect(),
         curves: show::curves(case, &impacts, &laws, &results.comparison.ranking())?,
-        maps: show::maps(&results.simulated)?,
+        maps: show::maps(
+            &results
+                .simulated
+                .iter()
+                .map(Shown::from)
+                .collect::<Vec<_>>(),
+        )?,
         fit: Some(show::fit(&results.law)?),
         comparison: show::comparison(&results.comparison.markdown()),
         bed,

@@ -15,9 +15,11 @@ use crate::contact::rebound::rebound;
 use crate::contact::{LawVisitor, NormalLaw};
 use crate::curve::{Impact, Status};
 use crate::files::write_atomic;
-use crate::material::Material;
+use crate::law::pair::PairTable;
+use crate::material::{Effective, Material};
 use crate::theory::Theory;
 use crate::theory::published::Evidence;
+use crate::unit::engineering;
 use crate::{Error, Result};
 use std::path::Path;
 
@@ -33,6 +35,8 @@ const LENGTH_ROUNDING: f64 = 1e-9;
 pub struct Comparison {
     material: Material,
     radius: f64,
+    /// What stands before the tables of a pair; none of a particle on a rigid wall.
+    pair: Option<String>,
     impacts: Vec<Impact>,
     left_out: Vec<f64>,
     rows: Vec<Row>,
@@ -51,12 +55,42 @@ impl Comparison {
         Self {
             material: *material,
             radius,
+            pair: None,
             rows: done
                 .iter()
                 .map(|impact| Row::simulated(&impact.summary))
                 .collect(),
             left_out: broken.iter().map(velocity).collect(),
             impacts: done,
+        }
+    }
+
+    /// Comparison with the impacts of a pair of bodies: laws are those of the sphere on a rigid plane that stands for both, and of the
+    /// theories only those are shown that are stated for two bodies.
+    #[must_use]
+    pub fn of_pair(bodies: &PairTable, impacts: &[Impact]) -> Self {
+        let both = bodies.effective();
+        let Effective { radius, material } = both;
+        let said = format!(
+            "Of a pair: {}. Laws have the effective radius {}, E* = {} of both, the reduced mass {}; theories the yield strength of the \
+             softer body. `series`: the laws of the two materials, each on a rigid plane, in series; `effective`: the atlas' law of one sphere of \
+             that radius, E* and mass and the softer strength.",
+            bodies.bodies(),
+            engineering(radius, "m", 4),
+            engineering(material.contact_modulus(), "Pa", 4),
+            engineering(both.mass(), "kg", 4),
+        );
+        Comparison {
+            pair: Some(said),
+            ..Self::new(&material, radius, impacts)
+        }
+    }
+
+    /// Say something more of the laws of a pair, as that one is left out.
+    pub fn note(&mut self, sentence: &str) {
+        if let Some(said) = &mut self.pair {
+            said.push(' ');
+            said.push_str(sentence);
         }
     }
 
@@ -76,8 +110,10 @@ impl Comparison {
 
     /// Add every theory that has a law of the material; those that are unverified if `all`.
     pub fn add_theories(&mut self, all: bool) {
-        let material = self.material;
-        let shown = |theory: &Theory| all || theory.evidence() == Evidence::Checked;
+        let (material, of_pair) = (self.material, self.pair.is_some());
+        let shown = |theory: &Theory| {
+            (all || theory.evidence() == Evidence::Checked) && (!of_pair || theory.is_of_pairs())
+        };
         for theory in Theory::of(&material).filter(shown) {
             // the only refusal is a missing yield strength, which has just been looked at
             let _ = theory.visit(&material, Added(self, theory.name()));

@@ -1,7 +1,7 @@
 //! Table: the comparison as Markdown that a person reads, best law first.
 
 use super::{Comparison, Row, SIMULATION};
-use crate::theory::published::left_out;
+use crate::theory::published::{Publication, left_out};
 use crate::theory::{self, FORMULAS, Theory};
 use std::fmt::Write;
 
@@ -22,6 +22,9 @@ impl Comparison {
             "Errors of the 1-D impact of each law (delta_res over delta*, others relative) and force RMSE along the simulated \
              displacements, over F*; all in %. `*`: the displacement lies beyond what the law's source supports.\n\n",
         );
+        if let Some(said) = &self.pair {
+            let _ = writeln!(text, "{said}\n");
+        }
         if !self.left_out.is_empty() {
             let speeds: Vec<_> = self.left_out.iter().map(|v| format!("{v} m/s")).collect();
             let _ = writeln!(text, "Left out (no rebound): {}.\n", speeds.join(", "));
@@ -46,9 +49,18 @@ impl Comparison {
         let compared = |theory: &Theory| laws.contains(&theory.name());
         let theories = Theory::ALL.into_iter().filter(compared);
         left_out(
-            theories.map(Theory::publication).chain(FORMULAS),
+            theories
+                .map(Theory::publication)
+                .chain(self.formulas_without_law()),
             &self.material,
         )
+    }
+
+    /// Models without a force law, of those that are shown.
+    fn formulas_without_law(&self) -> impl Iterator<Item = Publication> {
+        let of_pair = self.pair.is_some();
+        let shown = move |model: &Publication| !of_pair || model.of_pairs;
+        FORMULAS.into_iter().filter(shown)
     }
 
     /// Laws in the order they were added.
@@ -175,17 +187,20 @@ impl Comparison {
             return;
         }
         text.push_str("## Restitution from the authors' formulas\n\n| V m/s | mpm");
-        for (name, _) in theory::formulas() {
-            let _ = write!(text, " | {name}");
+        let of_pair = self.pair.is_some();
+        let shown = || theory::formulas().filter(move |model| !of_pair || model.of_pairs);
+        for model in shown() {
+            let _ = write!(text, " | {}", model.name);
         }
-        let columns = "---|".repeat(theory::formulas().count() + 2);
+        let columns = "---|".repeat(shown().count() + 2);
         let _ = writeln!(text, " |\n|{columns}");
         let cell = |e: Option<f64>| e.map_or_else(String::new, |e| format!("{e:.3}"));
         for impact in &self.impacts {
             let velocity = impact.summary.velocity_m_s;
             let _ = write!(text, "| {velocity} | {:.3}", impact.summary.restitution);
-            for (_, restitution) in theory::formulas() {
-                let e = restitution(&self.material, velocity);
+            for model in shown() {
+                let formula = model.restitution;
+                let e = formula.and_then(|formula| formula(&self.material, velocity));
                 let _ = write!(text, " | {}", cell(e));
             }
             text.push_str(" |\n");
@@ -203,7 +218,7 @@ impl Comparison {
             let _ = writeln!(text, "- {theory}: {}", theory.reference());
         }
         if self.material.flow.is_some() {
-            for formula in FORMULAS {
+            for formula in self.formulas_without_law() {
                 let _ = writeln!(text, "- {}: {}", formula.name, formula.reference);
             }
         }

@@ -23,6 +23,7 @@ use self::native::Code;
 use self::source::artifact::Artifact;
 use self::source::dialect::{Dialect, PairExport};
 use self::source::portable::Portable;
+use crate::law::pair::PairTable;
 use crate::{Error, Result};
 
 /// Makes [`Target`] from the list of dialects.
@@ -57,11 +58,22 @@ macro_rules! targets {
                 }
             }
 
+            /// Whether it holds the law of a pair of bodies.
+            #[must_use]
+            pub fn is_of_pairs(self) -> bool {
+                match self {
+                    $(Target::$target => <$dialect>::OF_PAIRS,)+
+                }
+            }
+
             /// The files of this target, in a folder of its name.
             ///
             /// # Errors
             /// [`Error::Refused`] when the target cannot express the law.
             pub fn export(self, law: &Portable) -> Result<Vec<Artifact>> {
+                if let Some(bodies) = law.pair().filter(|_| !self.is_of_pairs()) {
+                    return Err(not_of_pairs(self, bodies));
+                }
                 let files = match self {
                     $(Target::$target => <$dialect>::export(law),)+
                 };
@@ -79,6 +91,20 @@ targets! {
     Native => native::Native,
     Deme => deme::Deme,
     MercuryDpm => mercurydpm::MercuryDpm,
+}
+
+/// Refusal of the law of a pair by a target that holds the law of one material.
+fn not_of_pairs(target: Target, bodies: &PairTable) -> Error {
+    let able = Target::ALL.into_iter().filter(|able| able.is_of_pairs());
+    let names: Vec<_> = able.map(Target::name).collect();
+    Error::Refused {
+        what: format!("--to {target}"),
+        found: format!("the law of a pair, {}", bodies.bodies()),
+        allowed: format!(
+            "holds the law of one material, which is that of all its bodies; that of a pair goes to {}",
+            names.join(", ")
+        ),
+    }
 }
 
 /// What proves a target where its code is installed; nothing runs a table.

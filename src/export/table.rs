@@ -20,6 +20,7 @@ pub struct Table;
 impl Dialect for Table {
     const NAME: &'static str = "table";
     const PAIR: Option<PairExport> = None;
+    const OF_PAIRS: bool = false;
 
     fn export(law: &Portable) -> Result<Vec<Artifact>> {
         Ok(export(law))

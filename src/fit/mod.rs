@@ -10,6 +10,7 @@ pub mod run;
 pub(crate) mod solve;
 
 use crate::case::Case;
+use crate::case::pair::PairCase;
 use crate::contact::elastoplastic::Elastoplastic;
 use crate::contact::loading::SoftenedHertz;
 use crate::contact::spline::SplineLoading;
@@ -174,6 +175,25 @@ pub fn fit(case: &Case, impacts: &[Impact]) -> Result<Fit> {
         skipped,
         missing,
     })
+}
+
+/// Fit the law of a pair of bodies to its impacts: [`fit`] for the sphere on a rigid wall that stands for both
+/// ([`crate::material::Effective`]). Its x is the approach of the centres over the effective radius.
+///
+/// # Errors
+/// What [`check_material`] returns of either material, and as [`fit`].
+pub fn fit_pair(pair: &PairCase, impacts: &[Impact]) -> Result<Fit> {
+    check_pair(pair)?;
+    fit(&pair.effective(), impacts)
+}
+
+/// Checks that one law can hold for all sizes of a pair.
+///
+/// # Errors
+/// As [`check_material`], of either material.
+pub fn check_pair(pair: &PairCase) -> Result<()> {
+    check_material(&pair.particle.material)?;
+    check_material(&pair.target.material)
 }
 
 /// Impacts that can be used, and those that cannot, with the reasons; whether one can does not depend on the scale.

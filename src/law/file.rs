@@ -5,6 +5,7 @@
 //! The case file of that name belongs in `cases/`, so that anyone can make the law again.
 
 use super::FittedLaw;
+use super::bodies::{PairTable, refusal};
 pub use super::table::*;
 use crate::contact::admissible::Inadmissible;
 use crate::contact::elastoplastic::{ClosedForm, Elastoplastic, Spline, YieldUnits};
@@ -68,8 +69,11 @@ pub struct LawFile {
     /// missed.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub warnings: Vec<String>,
-    /// Material.
+    /// Material; of a pair that of the sphere on a rigid plane that stands for both bodies.
     pub material: MaterialTable,
+    /// The two bodies of the law of a pair; such a file is read as [`super::PairLaw`] alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pair: Option<PairTable>,
     /// Units of the constants; absent for an elastic law.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub yield_point: Option<YieldTable>,
@@ -97,6 +101,7 @@ keys! {
         name: key("name of the law: that of the case", "", "'solder-ball'"),
         form: key("form that is used unless another is asked for; its table must be there", "`\"closed_form\"`, `\"spline\"`, `\"hertz\"`", "'closed_form'"),
         material: table("material"),
+        pair: table("the two bodies, where the law is of a pair").or("none: one body on a rigid plane"),
         yield_point: table("units of the constants").or("none: elastic"),
         valid: table("range of the impacts"),
         provenance: table("where the law comes from"),
@@ -152,8 +157,21 @@ impl LawFile {
     ///
     /// # Errors
     /// [`Error::Value`] for another schema, a constant that is not admissible or a yield point that is not the
-    /// material's; [`Error::Syntax`] for an unknown or missing key.
+    /// material's; [`Error::Syntax`] for an unknown or missing key; [`Error::Refused`] for the law of a pair, which
+    /// [`super::PairLaw`] reads.
     pub fn parse(document: &Document) -> Result<Self> {
+        let file = Self::parse_any(document)?;
+        match &file.pair {
+            None => Ok(file),
+            Some(bodies) => Err(refusal(document, bodies)),
+        }
+    }
+
+    /// Check the text of a law file, of one body or of two.
+    ///
+    /// # Errors
+    /// As [`LawFile::parse`], but for the last.
+    pub(crate) fn parse_any(document: &Document) -> Result<Self> {
         document.read_as::<LawFile>();
         // another schema has other keys: it is looked at before them
         let head = toml::from_str::<Head>(document.text());
@@ -226,6 +244,9 @@ impl LawFile {
         let rises = |x: f64| x >= v.velocity_min_m_s;
         document.check(key, v.velocity_max_m_s, rises, &document.must(key))?;
         document.within("provenance.radius_m", self.provenance.radius_m)?;
+        if let Some(bodies) = &self.pair {
+            bodies.check(&self.material(), self.provenance.radius_m, document)?;
+        }
         self.check_yield_point(document)
     }
 

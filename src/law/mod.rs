@@ -1,10 +1,14 @@
-//! Laws by name: the fitted law of a law file in one of its forms, or a theory, behind one visitor.
+//! Laws by name: the fitted law of a law file in one of its forms, two of them in series, or a theory, behind one visitor.
 
+mod bodies;
 pub mod file;
+pub mod pair;
+pub mod series;
 mod table;
 mod write;
 
 pub use file::{Form, LawFile};
+pub use pair::PairLaw;
 
 use crate::contact::elastoplastic::{ClosedForm, Spline};
 use crate::contact::rebound::{Rebound, State, rebound, trajectory};
@@ -14,6 +18,7 @@ use crate::theory::Theory;
 use crate::theory::hertz::Hertz;
 use crate::unit::engineering;
 use crate::{Error, Result};
+use series::Series;
 
 /// Name of the law that the atlas has for a material.
 pub const ATLAS: &str = "atlas";
@@ -165,6 +170,8 @@ pub enum AnyLaw {
     Fitted(FittedLaw),
     /// A theory for a material.
     Theory(Theory, Material),
+    /// Two flattenings in series, as a law of the sphere that stands for both bodies.
+    Series(Box<Series>),
 }
 
 impl AnyLaw {
@@ -176,6 +183,7 @@ impl AnyLaw {
         match self {
             AnyLaw::Fitted(law) => Ok(law.visit(visitor)),
             AnyLaw::Theory(theory, material) => theory.visit(material, visitor),
+            AnyLaw::Series(law) => Ok(visitor.visit(&**law)),
         }
     }
 

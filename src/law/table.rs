@@ -76,7 +76,7 @@ pub struct ProvenanceTable {
     pub case: String,
     /// SHA-256 of the case file.
     pub case_sha256: String,
-    /// Radius of the sphere that was simulated.
+    /// Radius of the sphere that was simulated; of a pair the effective one.
     pub radius_m: f64,
     /// Impacts that were not used.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -88,7 +88,7 @@ keys! {
         program: key("program and version", "", "'impactlaw 0.1.0'"),
         case: key("name of the case", "", "'solder-ball'"),
         case_sha256: key("SHA-256 of the case file", "", "'99a5...'"),
-        radius_m: key("radius that was simulated, m", "> 0", "0.00025"),
+        radius_m: key("radius that was simulated, m; of a pair the effective one, 1/(1/R₁ + 1/R₂)", "> 0", "0.00025"),
         skipped_velocities_m_s: key("impacts that were not used, m/s", "", "[50.0]").or("none"),
     }
 }

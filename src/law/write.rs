@@ -25,6 +25,22 @@ const HEADER: &str = "\
 Normal contact law of one body pressed by a rigid plane, fitted to simulated impacts.
 Two equal spheres: F(delta/2). Two bodies: in series, delta = delta_1 + delta_2, F_1 = F_2.
 With R the radius of the body: w = (delta/R) / yield_point.displacement_over_radius,
+";
+
+/// The same of a pair, as [`crate::material::Effective`] has it.
+const PAIR_HEADER: &str = "\
+Normal contact law of the two bodies of [pair], fitted to simulated impacts of one on the other. It is of both together: no law of one
+of them, and none of the same bodies in series.
+delta is the approach of their centres of mass since first contact; of a plate or half-space, which is held, that of the particle's.
+R is the effective radius, 1/R = 1/R_1 + 1/R_2 (R_1 on what is flat), and [material] the sphere of that radius that meets a rigid
+plane in their place: E/(1 - poisson_ratio^2) = E* with 1/E* = 1/E*_1 + 1/E*_2, the flow stress of the body that yields first, the
+density with which its mass is m, 1/m = 1/m_1 + 1/m_2 (m_1 on what is flat). m delta'' = -F.
+It holds for these materials and bodies similar to these: R_2/R_1 or thickness/R_1 as here. What waves take into a flat body is in it.
+w = (delta/R) / yield_point.displacement_over_radius,
+";
+
+/// What follows in both.
+const EQUATIONS: &str = "\
 F = R^2 yield_point.force_over_radius2_Pa f(w).
 Loading, closed form:  f = w^1.5 exp(-q L^3/(b^2 + L^2)),  L = max(0, ln(w/w_1)),
                        w_1 = departure, b = breadth, q = softening.
@@ -54,6 +70,7 @@ impl LawFile {
             form: Form::Hertz,
             warnings: Vec::new(),
             material: MaterialTable::from(&case.material),
+            pair: None,
             yield_point: None,
             valid: ValidTable {
                 displacement_over_radius_max: fit.flattening,
@@ -123,6 +140,7 @@ impl LawFile {
             form: Form::Spline,
             warnings: vec![atlas.provenance(material)],
             material: MaterialTable::from(material),
+            pair: None,
             yield_point: Some(YieldTable {
                 pressure_ratio: YIELD_PRESSURE_RATIO,
                 displacement_over_radius: units.flattening,
@@ -215,7 +233,12 @@ impl LawFile {
         let tables = toml::to_string(self).map_err(|e| crate::Error::Fit {
             reason: format!("the law cannot be written as TOML: {e}"),
         })?;
-        let comments: String = HEADER.lines().map(|line| format!("# {line}\n")).collect();
+        let head = match self.pair {
+            None => HEADER,
+            Some(_) => PAIR_HEADER,
+        };
+        let lines = head.lines().chain(EQUATIONS.lines());
+        let comments: String = lines.map(|line| format!("# {line}\n")).collect();
         Ok(format!("{comments}\n{tables}"))
     }
 

@@ -1,11 +1,13 @@
 //! Material of a particle: elastic constants, flow stress, and the yield quantities that follow from them.
 
 pub mod constant;
+pub mod effective;
 pub mod flow;
 pub mod reference;
 pub mod stress;
 pub mod table;
 
+pub use effective::Effective;
 pub use flow::Flow;
 pub use reference::ReferenceUnits;
 pub use table::MaterialTable;

@@ -5,7 +5,9 @@ use super::page::{Block, Page, Section};
 use super::table::Table;
 use crate::Result;
 use crate::case::Case;
+use crate::case::pair::{Target, TargetShape};
 use crate::curve::{Status, Summary};
+use crate::material::Material;
 use crate::unit::{engineering, prefixed, rounded, significant};
 use std::path::{Path, PathBuf};
 
@@ -53,6 +55,8 @@ pub struct BedShow {
 pub struct RunPage<'a> {
     /// The case.
     pub case: &'a Case,
+    /// The second deformable body; none where the wall is rigid.
+    pub target: Option<&'a Target>,
     /// Text of the case file.
     pub case_text: &'a str,
     /// Command that made the run.
@@ -159,16 +163,20 @@ impl RunPage<'_> {
         let unbroken = |text: String| text.replace(' ', "\u{a0}");
         let force = |summary: &Summary| unbroken(engineering(summary.max_force_n, "N", 3));
         let speed = |summary: &Summary| unbroken(engineering(summary.velocity_m_s, "m/s", 4));
+        let wall = match self.target {
+            None => "rigid frictionless wall".to_owned(),
+            Some(target) => format!("deformable {}", target.shape.name()),
+        };
         if self.impacts.len() == 1 {
             return format!(
-                "One impact on a rigid frictionless wall at {}: restitution {}, peak force {}.",
+                "One impact on a {wall} at {}: restitution {}, peak force {}.",
                 speed(first),
                 e(first),
                 force(first)
             );
         }
         format!(
-            "{} impacts on a rigid frictionless wall. From {} to {} the restitution goes from {} to {}, the peak force \
+            "{} impacts on a {wall}. From {} to {} the restitution goes from {} to {}, the peak force \
              from {} to {}.",
             self.impacts.len(),
             speed(first),
@@ -188,29 +196,14 @@ impl RunPage<'_> {
             .iter()
             .map(|v| significant(*v, 4))
             .collect();
-        let mut facts = vec![
-            ("Radius R".to_owned(), engineering(self.case.radius, "m", 4)),
-            (
-                "Density ρ".to_owned(),
-                engineering(material.density, "kg/m³", 5),
-            ),
-            (
-                "Young’s modulus E".to_owned(),
-                engineering(material.young_modulus, "Pa", 4),
-            ),
-            (
-                "Poisson’s ratio ν".to_owned(),
-                significant(material.poisson_ratio, 4),
-            ),
-        ];
-        if let Some(flow) = material.flow {
-            facts.push(("Flow stress".to_owned(), flow.name().to_owned()));
-            for (constant, value) in flow.constants() {
-                let value = engineering(value, constant.dimension.unit(), 4);
-                facts.push((constant.title(), value));
-            }
-        } else {
-            facts.push(("Flow stress".to_owned(), "none (elastic)".to_owned()));
+        let mut facts = vec![("Radius R".to_owned(), engineering(self.case.radius, "m", 4))];
+        facts.extend(constants(material));
+        if let Some(target) = self.target {
+            facts.push(("Second body".to_owned(), second_body(target.shape)));
+            let whose = |(name, value): (String, String)| (format!("{name}, second body"), value);
+            facts.extend(constants(&target.material).into_iter().map(whose));
+            let of_both = "V is that of the two centres of mass towards each other, δ their approach; of a body that is held, those of the particle";
+            facts.push(("Two bodies".to_owned(), of_both.to_owned()));
         }
         facts.push((
             "Impact speeds V".to_owned(),
@@ -374,6 +367,48 @@ impl RunPage<'_> {
             .with(Block::Code(self.command.to_owned()))
             .with(Block::Facts(facts))
             .with(Block::Code(self.case_text.trim_end().to_owned()))
+    }
+}
+
+/// Constants of a material, by name.
+fn constants(material: &Material) -> Vec<(String, String)> {
+    let mut facts = vec![
+        (
+            "Density ρ".to_owned(),
+            engineering(material.density, "kg/m³", 5),
+        ),
+        (
+            "Young’s modulus E".to_owned(),
+            engineering(material.young_modulus, "Pa", 4),
+        ),
+        (
+            "Poisson’s ratio ν".to_owned(),
+            significant(material.poisson_ratio, 4),
+        ),
+    ];
+    if let Some(flow) = material.flow {
+        facts.push(("Flow stress".to_owned(), flow.name().to_owned()));
+        for (constant, value) in flow.constants() {
+            let value = engineering(value, constant.dimension.unit(), 4);
+            facts.push((constant.title(), value));
+        }
+    } else {
+        facts.push(("Flow stress".to_owned(), "none (elastic)".to_owned()));
+    }
+    facts
+}
+
+/// A second body in words.
+fn second_body(shape: TargetShape) -> String {
+    match shape {
+        TargetShape::Sphere { radius } => format!("sphere of {}", engineering(radius, "m", 4)),
+        TargetShape::Plate { thickness } => {
+            format!(
+                "plate of {}, held at its back",
+                engineering(thickness, "m", 4)
+            )
+        }
+        TargetShape::HalfSpace => "half-space".to_owned(),
     }
 }
 

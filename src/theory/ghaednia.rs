@@ -143,6 +143,7 @@ impl Published for Ghaednia {
     const PAPERS: &'static [&'static str] = &["Ghaednia2019", "Brake2015"];
     const REFERENCE: &'static str = "Ghaednia, Brake, Berryhill and Jackson 2019, J. Tribol. (as coded: the printed exponent is wrong); unloading Brake 2015, Int. J. Solids Struct. 62, 104";
     const EVIDENCE: Evidence = Evidence::Checked;
+    const OF_PAIRS: bool = false;
     const FLOW: FlowConstants = &[YIELD_STRENGTH, HARDENING_MODULUS];
     const RESTITUTION: Option<Restitution> = None;
 }

@@ -83,6 +83,7 @@ impl Published for Hertz {
     const PAPERS: &'static [&'static str] = &["Hertz1882", "Johnson1985"];
     const REFERENCE: &'static str = "Hertz 1882; Johnson 1985, section 4.2";
     const EVIDENCE: Evidence = Evidence::Checked;
+    const OF_PAIRS: bool = true;
     const FLOW: FlowConstants = ELASTIC;
     const RESTITUTION: Option<Restitution> = Some(|_, _| Some(1.0));
 }

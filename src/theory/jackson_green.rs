@@ -111,6 +111,7 @@ impl Published for JacksonGreen {
     const PAPERS: &'static [&'static str] = &["JacksonGreen2005", "JacksonGreenMarghitu2010"];
     const REFERENCE: &'static str = "Jackson and Green 2005, J. Tribol. 127, 343; unloading Jackson, Green and Marghitu 2010, Nonlinear Dyn. 60, 217";
     const EVIDENCE: Evidence = Evidence::Checked;
+    const OF_PAIRS: bool = false;
     const FLOW: FlowConstants = YIELD_STRENGTH_ONLY;
     const RESTITUTION: Option<Restitution> = Some(restitution);
 }

@@ -56,6 +56,7 @@ impl Published for Johnson {
     const PAPERS: &'static [&'static str] = &["Johnson1985"];
     const REFERENCE: &'static str = "Johnson 1985, sections 6.3 and 11.5, p = 3 Y; Hertzian until the plastic line is met (not in the book)";
     const EVIDENCE: Evidence = Evidence::Checked;
+    const OF_PAIRS: bool = true;
     const FLOW: FlowConstants = YIELD_STRENGTH_ONLY;
     const RESTITUTION: Option<Restitution> = Some(restitution);
 }

@@ -89,6 +89,7 @@ impl Published for KogutEtsion {
     const PAPERS: &'static [&'static str] = &["KogutEtsion2002", "EtsionKligermanKadin2005"];
     const REFERENCE: &'static str = "Kogut and Etsion 2002, J. Appl. Mech. 69, 657; unloading Etsion, Kligerman and Kadin 2005, Int. J. Solids Struct. 42, 3716 (unloading constants unverified)";
     const EVIDENCE: Evidence = Evidence::Checked;
+    const OF_PAIRS: bool = false;
     const FLOW: FlowConstants = YIELD_STRENGTH_ONLY;
     const RESTITUTION: Option<Restitution> = None;
 }
@@ -117,6 +118,7 @@ impl Published for HertzianUnloading {
     const PAPERS: &'static [&'static str] = &["KogutEtsion2002", "JacksonGreenMarghitu2010"];
     const REFERENCE: &'static str = "Kogut and Etsion 2002, J. Appl. Mech. 69, 657; unloading of Hertz with a continuous contact radius, as Jackson, Green and Marghitu 2010 and a code attribute it to Etsion, Kligerman and Kadin 2005 (not seen in the papers)";
     const EVIDENCE: Evidence = Evidence::Unverified;
+    const OF_PAIRS: bool = false;
     const FLOW: FlowConstants = YIELD_STRENGTH_ONLY;
     const RESTITUTION: Option<Restitution> = None;
 }

@@ -92,6 +92,7 @@ impl Published for Luding {
     const PAPERS: &'static [&'static str] = &["Luding2008"];
     const REFERENCE: &'static str = "Luding 2008, Granular Matter 10, 235, without adhesion; k1 = 5 R Y (Walton 2006), k2 from Johnson's e at rho V^2/Y = 0.01, limit branch from 0.1 on";
     const EVIDENCE: Evidence = Evidence::Checked;
+    const OF_PAIRS: bool = false;
     const FLOW: FlowConstants = YIELD_STRENGTH_ONLY;
     const RESTITUTION: Option<Restitution> =
         Some(|material, velocity| Some(Luding::of(material)?.restitution(material, velocity)));

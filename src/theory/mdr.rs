@@ -258,6 +258,7 @@ impl Published for Mdr {
     const PAPERS: &'static [&'static str] = &["ZunkerKamrin2024"];
     const REFERENCE: &'static str = "Zunker and Kamrin 2024, J. Mech. Phys. Solids 183, 105492, one flat, without adhesion (equations from the code in LAMMPS); its tangent beyond delta = R/2";
     const EVIDENCE: Evidence = Evidence::Checked;
+    const OF_PAIRS: bool = false;
     const FLOW: FlowConstants = YIELD_STRENGTH_ONLY;
     const RESTITUTION: Option<Restitution> = None;
 }

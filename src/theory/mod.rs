@@ -22,7 +22,7 @@ pub mod wu_li_thornton;
 use crate::contact::LawVisitor;
 use crate::material::Material;
 use crate::{Error, Result};
-use published::{Evidence, Publication, PublishedLaw, Restitution};
+use published::{Evidence, Publication, PublishedLaw};
 use serde::{Deserialize, Serialize};
 
 /// Makes [`Theory`] and [`FORMULAS`] from the list of models.
@@ -109,6 +109,12 @@ impl Theory {
         self.publication().evidence
     }
 
+    /// Whether its source states it for two deformable bodies.
+    #[must_use]
+    pub fn is_of_pairs(self) -> bool {
+        self.publication().of_pairs
+    }
+
     /// The theories that comparisons of `material` show unasked: all that have a law of it and are not unverified.
     pub fn compared(material: &Material) -> impl Iterator<Item = Theory> {
         Theory::of(material).filter(|theory| theory.evidence() == Evidence::Checked)
@@ -150,15 +156,15 @@ impl Theory {
     }
 }
 
-/// The authors' formulas for the restitution of a yielding body, those of theories first.
-pub fn formulas() -> impl Iterator<Item = (&'static str, Restitution)> {
+/// The models whose authors give a formula for the restitution of a yielding body, theories first.
+pub fn formulas() -> impl Iterator<Item = Publication> {
     let yielding = Theory::ALL
         .into_iter()
         .filter(|theory| theory.needs_yield());
     yielding
         .map(Theory::publication)
         .chain(FORMULAS)
-        .filter_map(|model| Some((model.name, model.restitution?)))
+        .filter(|model| model.restitution.is_some())
 }
 
 impl std::fmt::Display for Theory {

@@ -40,6 +40,9 @@ pub trait Published {
     const REFERENCE: &'static str;
     /// What its constants rest on.
     const EVIDENCE: Evidence;
+    /// Whether its source states it for two deformable bodies, with the E* of both and the strength of the softer one; else it is of
+    /// one body on a rigid plane.
+    const OF_PAIRS: bool;
     /// What it takes of the flow stress.
     const FLOW: FlowConstants;
     /// Restitution as the authors give it; `None` where they give none.
@@ -68,6 +71,8 @@ pub struct Publication {
     pub reference: &'static str,
     /// [`Published::EVIDENCE`].
     pub evidence: Evidence,
+    /// [`Published::OF_PAIRS`].
+    pub of_pairs: bool,
     /// [`Published::FLOW`].
     pub flow: FlowConstants,
     /// [`Published::RESTITUTION`].
@@ -84,6 +89,7 @@ impl Publication {
             papers: P::PAPERS,
             reference: P::REFERENCE,
             evidence: P::EVIDENCE,
+            of_pairs: P::OF_PAIRS,
             flow: P::FLOW,
             restitution: P::RESTITUTION,
         }

@@ -72,6 +72,7 @@ impl Published for Stronge {
     const REFERENCE: &'static str =
         "Stronge 2000, Impact Mechanics, chapter 6 (from memory, unverified)";
     const EVIDENCE: Evidence = Evidence::Unverified;
+    const OF_PAIRS: bool = true;
     const FLOW: FlowConstants = YIELD_STRENGTH_ONLY;
     const RESTITUTION: Option<Restitution> = None;
 }

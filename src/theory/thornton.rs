@@ -65,6 +65,7 @@ impl Published for AtFirstYield {
     const REFERENCE: &'static str =
         "Thornton 1997, J. Appl. Mech. 64, 383, pressure limited at first yield, 1.6 Y";
     const EVIDENCE: Evidence = Evidence::Checked;
+    const OF_PAIRS: bool = true;
     const FLOW: FlowConstants = YIELD_STRENGTH_ONLY;
     const RESTITUTION: Option<Restitution> =
         Some(|material, velocity| restitution(material, YIELD_PRESSURE_RATIO, velocity));
@@ -89,6 +90,7 @@ impl Published for AtHardness {
     const REFERENCE: &'static str =
         "Thornton 1997, J. Appl. Mech. 64, 383, pressure limited at the hardness, 2.8 Y";
     const EVIDENCE: Evidence = Evidence::Checked;
+    const OF_PAIRS: bool = true;
     const FLOW: FlowConstants = YIELD_STRENGTH_ONLY;
     const RESTITUTION: Option<Restitution> =
         Some(|material, velocity| restitution(material, HARDNESS_RATIO, velocity));

@@ -82,6 +82,7 @@ impl Published for Constant {
     const PAPERS: &'static [&'static str] = &["WaltonBraun1986"];
     const REFERENCE: &'static str = "Walton and Braun 1986, J. Rheol. 30, 949, constant k2; k1 = 5 R Y (Walton 2006), k2 from Johnson's e at rho V^2/Y = 0.01";
     const EVIDENCE: Evidence = Evidence::Checked;
+    const OF_PAIRS: bool = false;
     const FLOW: FlowConstants = YIELD_STRENGTH_ONLY;
     const RESTITUTION: Option<Restitution> = Some(|material, velocity| {
         Some(WaltonBraun::constant(material)?.restitution(material, velocity))
@@ -106,6 +107,7 @@ impl Published for Variable {
     const PAPERS: &'static [&'static str] = &["WaltonBraun1986"];
     const REFERENCE: &'static str = "Walton and Braun 1986, J. Rheol. 30, 949, k2 growing with the force; k1 = 5 R Y (Walton 2006), k2 from Johnson's e at rho V^2/Y = 0.01";
     const EVIDENCE: Evidence = Evidence::Checked;
+    const OF_PAIRS: bool = false;
     const FLOW: FlowConstants = YIELD_STRENGTH_ONLY;
     const RESTITUTION: Option<Restitution> = Some(|material, velocity| {
         Some(WaltonBraun::variable(material)?.restitution(material, velocity))

@@ -18,6 +18,7 @@ impl Published for WuLiThornton {
     const PAPERS: &'static [&'static str] = &["WuLiThornton2003"];
     const REFERENCE: &'static str = "Wu, Li and Thornton 2003, Int. J. Impact Eng. 28, 929";
     const EVIDENCE: Evidence = Evidence::Checked;
+    const OF_PAIRS: bool = false;
     const FLOW: FlowConstants = YIELD_STRENGTH_ONLY;
     const RESTITUTION: Option<Restitution> = Some(restitution);
 }

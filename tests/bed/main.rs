@@ -31,6 +31,7 @@ mod oblique_elastic;
 mod oblique_published;
 mod outlets;
 mod page;
+mod pair_law;
 mod periodic;
 #[path = "../support/program.rs"]
 mod program;

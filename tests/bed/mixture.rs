@@ -1,6 +1,7 @@
 //! Mixtures: contacts of two materials against Hertz, their limits, and beds of several materials.
 
 use impactlaw::contact::pair::{Alike, Flat, Pressed};
+use impactlaw::contact::rebound::rebound;
 use impactlaw::dem::bodies::machine::Machine;
 use impactlaw::dem::bodies::{Body, Mobility, Solid};
 use impactlaw::dem::dynamics::{Bed, Normals, Parts};
@@ -11,9 +12,11 @@ use impactlaw::dem::force::friction::Mindlin;
 use impactlaw::dem::force::mixture::{Mixture, RIGID};
 use impactlaw::dem::force::named::{Effects, mixed};
 use impactlaw::dem::force::normal::{Histories, Model, NormalModel, Squeeze};
+use impactlaw::dem::force::paired::OfPair;
 use impactlaw::dem::grains::Grains;
 use impactlaw::law::AnyLaw;
-use impactlaw::material::{Flow, Material, YIELD_PRESSURE_RATIO};
+use impactlaw::material::{Effective, Flow, Material, YIELD_PRESSURE_RATIO};
+use impactlaw::tape::Tape;
 use impactlaw::theory::Theory;
 use impactlaw::theory::thornton::Thornton;
 use parry3d::math::{Rotation, Vector};
@@ -239,4 +242,178 @@ fn a_mixture_closes_its_energy_and_remembers_across_listings() {
     assert!(end.plastic > 0.0 && end.losses.friction > 0.0, "{end:?}");
     let off = (end.balance() - start.balance()).abs();
     assert!(off < 2e-3 * end.turnover(), "{off} of {}", end.turnover());
+}
+
+/// The law of both materials together, which is that of the sphere that stands for them.
+fn of_both(theory: Theory) -> AnyLaw {
+    AnyLaw::Theory(theory, Effective::of(&SOFT, RADIUS, &HARD, None).material)
+}
+
+/// Laws in series, but for the two materials together.
+fn paired(theory: Theory, ratio: f64) -> Mixture {
+    let law = of_both(theory);
+    let own = OfPair {
+        between: [0, 1],
+        law: &law,
+        ratio,
+    };
+    mixture(&[(theory, SOFT), (theory, HARD)])
+        .with_pairs([own])
+        .unwrap()
+}
+
+#[test]
+fn the_law_of_a_pair_presses_its_two_materials_and_no_other_contact() {
+    // elastic: two laws in series and one of both are Hertz's, for any radii and in either order
+    let (series, one) = (
+        mixture(&[(Theory::Hertz, SOFT), (Theory::Hertz, HARD)]),
+        paired(Theory::Hertz, 1.0),
+    );
+    for materials in [[0, 1], [1, 0]] {
+        for radii in [[RADIUS; 2], [RADIUS, 3.0 * RADIUS], [RADIUS, f64::INFINITY]] {
+            let [mut a, mut b] = [&series, &one].map(|model| contact(model, materials));
+            let [a, b] = [&mut a, &mut b].map(|one| press(&mut **one, 1e-5, radii));
+            for (a, b) in [
+                (a.force, b.force),
+                (a.stiffness, b.stiffness),
+                (a.contact_radius, b.contact_radius),
+                (a.flattening[0], b.flattening[0]),
+                (a.flattening[1], b.flattening[1]),
+                (a.depth, b.depth),
+            ] {
+                assert!((a / b - 1.0).abs() < 1e-12, "{a} {b}");
+            }
+        }
+    }
+    // all other contacts keep their bits
+    let (series, one) = (
+        mixture(&[(Theory::Thornton, SOFT), (Theory::Thornton, HARD)]),
+        paired(Theory::Thornton, f64::INFINITY),
+    );
+    for materials in [[0, 0], [1, 1], [0, RIGID], [1, RIGID]] {
+        let [mut a, mut b] = [&series, &one].map(|model| contact(model, materials));
+        for overlap in [2e-5, 6e-5, 5e-5, 1e-4] {
+            let radii = match materials[1] {
+                RIGID => [RADIUS, f64::INFINITY],
+                _ => [RADIUS, 1.5 * RADIUS],
+            };
+            assert_eq!(
+                press(&mut *a, overlap, radii),
+                press(&mut *b, overlap, radii)
+            );
+        }
+    }
+    // of several laws for one pair the last is taken
+    let laws = [of_both(Theory::Hertz), of_both(Theory::Thornton)];
+    let several = laws.each_ref().map(|law| OfPair {
+        between: [1, 0],
+        law,
+        ratio: 1.0,
+    });
+    let several = mixture(&[(Theory::Hertz, SOFT), (Theory::Hertz, HARD)])
+        .with_pairs(several)
+        .unwrap();
+    let radii = [RADIUS, f64::INFINITY];
+    let [last, expected] =
+        [&several, &one].map(|model| press(&mut *contact(model, [0, 1]), 6e-5, radii));
+    assert_eq!(last.force, expected.force);
+}
+
+#[test]
+fn a_contact_under_the_law_of_a_pair_remembers_gives_back_and_tells_its_range() {
+    let model = paired(Theory::Thornton, f64::INFINITY);
+    let radii = [RADIUS, f64::INFINITY];
+    let mut held = contact(&model, [0, 1]);
+    let count = 4000;
+    let work = |held: &mut dyn Histories, from: f64, to: f64| {
+        let part = |k: i32| from + (to - from) * (f64::from(k) + 0.5) / f64::from(count);
+        let force = |k: i32| press(held, part(k), radii).force * (to - from) / f64::from(count);
+        (0..count).map(force).sum::<f64>()
+    };
+    let deepest = 6e-5;
+    let loading = work(&mut *held, 0.0, deepest);
+    press(&mut *held, deepest, radii);
+    let squeeze = Squeeze {
+        overlap: deepest,
+        radii,
+    };
+    let (elastic, lost) = (held.elastic_energy(0, squeeze), held.dissipated(0, radii));
+    assert!(lost > 0.1 * loading);
+    assert!(((elastic + lost) / loading - 1.0).abs() < 1e-4);
+    let back = -work(&mut *held, deepest, 0.0);
+    assert!((back / elastic - 1.0).abs() < 1e-4, "{back} {elastic}");
+    assert_eq!(held.largest_overlap(0, radii), Some(deepest));
+    // taken to another contact of the two materials it goes on there, and a kept one comes back
+    let mut tape = Tape::default();
+    held.save(&mut tape);
+    let mut kept = contact(&model, [RIGID; 2]);
+    kept.load(&mut Tape::from_bytes(tape.as_bytes().to_vec()))
+        .unwrap();
+    assert!(kept.same(&*held));
+    let history = held.take(0);
+    assert_eq!(held.largest_overlap(0, radii), Some(0.0));
+    let mut other = contact(&model, [0, 1]);
+    other.put(0, &*history);
+    let at = 5e-5;
+    assert_eq!(press(&mut *other, at, radii), press(&mut *kept, at, radii));
+    // made of a sphere on a half-space; between spheres it is told to be beyond its range once curvature matters
+    let beyond = |materials: [u8; 2], radii: [f64; 2], x: f64| {
+        let mut one = contact(&model, materials);
+        let effective = 1.0 / (1.0 / radii[0] + 1.0 / radii[1]);
+        let overlap = x * effective;
+        press(&mut *one, overlap, radii);
+        one.coverage(0, Squeeze { overlap, radii }).beyond
+    };
+    let flat = f64::INFINITY;
+    assert!(!beyond([0, 1], [RADIUS, flat], 0.05));
+    for (materials, radii) in [([0, 1], [RADIUS; 2]), ([1, 0], [RADIUS, flat])] {
+        assert!(!beyond(materials, radii, 0.019), "{radii:?}");
+        assert!(beyond(materials, radii, 0.021), "{radii:?}");
+    }
+}
+
+#[test]
+fn a_grain_rebounds_from_a_body_as_the_law_of_the_pair_says() {
+    let law = Thornton::of(
+        &Effective::of(&SOFT, RADIUS, &HARD, None).material,
+        YIELD_PRESSURE_RATIO,
+    )
+    .unwrap();
+    let velocity = 0.5;
+    let mass = SOFT.sphere_mass(RADIUS);
+    let expected = rebound(&law, RADIUS, mass, velocity);
+    assert!(expected.restitution < 0.8, "{expected:?}");
+    let mut grains = Grains::default();
+    let above = Vector::new(0.0, 0.0, RADIUS * (1.0 + 1e-9));
+    grains.add_of(0, above, RADIUS, SOFT.density);
+    grains.motions[0].velocity = Vector::new(0.0, 0.0, -velocity);
+    let edge = 20.0 * RADIUS;
+    let body = Body {
+        name: "block".to_owned(),
+        solid: Solid::Cuboid(Vector::splat(edge)),
+        centre: Vector::new(0.0, 0.0, -edge),
+        rotation: Rotation::IDENTITY,
+        mobility: Mobility::Fixed,
+        material: Some(1),
+    };
+    let parts = Parts {
+        grains,
+        machine: Machine::new(vec![body], Vector::ZERO, RADIUS).unwrap(),
+        gravity: Vector::ZERO,
+        dt: expected.contact_time / 400.0,
+        skin: RADIUS,
+    };
+    let model = paired(Theory::Thornton, f64::INFINITY);
+    let none = Table::new(2, |_, _| Effects::default());
+    let mut bed = Bed::new(mixed(&none), both(&model), parts);
+    let steps = 600;
+    for _ in 0..steps {
+        bed.step().unwrap();
+    }
+    let speed = bed.grains.motions[0].velocity.z;
+    let restitution = speed / velocity;
+    assert!(
+        (restitution / expected.restitution - 1.0).abs() < 1e-3,
+        "{restitution} {expected:?}"
+    );
 }

@@ -56,6 +56,7 @@ fn summary(velocity_m_s: f64, status: Status) -> Summary {
 fn page(case: &Case) -> RunPage<'_> {
     RunPage {
         case,
+        target: None,
         case_text: CASE,
         command: "impactlaw run cases/steel.toml",
         version: "impactlaw 0.0.0",

@@ -243,3 +243,74 @@ fn the_table_gives_the_law_back() {
         }
     }
 }
+
+/// The law of a ball on a plate, on a half-space and on a smaller ball, from impacts of a known law.
+fn laws_of_pairs() -> Vec<Portable> {
+    use impactlaw::case::Case;
+    use impactlaw::case::pair::{PairCase, Target, TargetShape};
+    use impactlaw::law::PairLaw;
+    use impactlaw::material::{Flow, Material};
+    let metal = |density, young_modulus, strength| Material {
+        density,
+        young_modulus,
+        poisson_ratio: 0.3,
+        flow: Some(Flow::perfectly_plastic(strength)),
+    };
+    let (steel, aluminium) = (metal(7850.0, 210e9, 1.7e9), metal(2700.0, 70e9, 280e6));
+    let shapes = [
+        TargetShape::HalfSpace,
+        TargetShape::Plate { thickness: 4e-3 },
+        TargetShape::Sphere { radius: 0.5e-3 },
+    ];
+    let of = |shape| {
+        let pair = PairCase {
+            particle: Case::of("ball", 1e-3, steel, &[1.0, 10.0], 0.05).unwrap(),
+            target: Target {
+                shape,
+                material: aluminium,
+            },
+        };
+        // the atlas has the law of the sphere that stands for both: a law file of the right form, whatever its numbers
+        let both = pair.effective();
+        let mut file = LawFile::of_atlas("ball", &both.material, both.radius).unwrap();
+        file.pair = Some(impactlaw::law::pair::PairTable::of(&pair));
+        let text = file.text().unwrap();
+        let document = impactlaw::document::Document::new("ball.toml".as_ref(), &text[..]);
+        let law = PairLaw::parse(&document).unwrap();
+        Portable::new(law.into_file(), None, "none".to_owned()).unwrap()
+    };
+    shapes.map(of).to_vec()
+}
+
+#[test]
+fn the_law_of_a_pair_in_c_is_that_of_the_bed_and_no_other_target_takes_it() {
+    use impactlaw::export::Target;
+    for law in laws_of_pairs() {
+        for target in Target::ALL {
+            match target {
+                Target::C => assert_eq!(target.export(&law).unwrap().len(), 1),
+                other => {
+                    let error = other.export(&law).unwrap_err().to_string();
+                    assert!(error.contains("the law of a pair"), "{error}");
+                    assert!(error.ends_with("goes to c"), "{error}");
+                }
+            }
+        }
+        let text = &c::export(&law)[0].text;
+        for said in [
+            "law is that of two bodies together",
+            "Second: density 2700",
+            "ball_press",
+        ] {
+            assert!(text.contains(said), "{said}: {text}");
+        }
+        assert!(!text.contains("ball_pair("), "{text}");
+        let Some(agreements) = agreements(&law) else {
+            return;
+        };
+        assert_eq!(agreements.len(), 3);
+        for (subject, deviation, holds) in agreements {
+            assert!(holds, "{subject}: {deviation:e}");
+        }
+    }
+}

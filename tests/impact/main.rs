@@ -8,6 +8,7 @@ mod large;
 #[path = "../support/maw_barber_fawcett.rs"]
 mod maw_barber_fawcett;
 mod pair;
+mod pair_law;
 mod plastic;
 mod presets;
 mod scan;

@@ -43,6 +43,7 @@ fn example() -> LawFile {
             poisson_ratio: 0.35,
             flow: FlowConstants::of(Some(&Flow::perfectly_plastic(1.25e9))),
         },
+        pair: None,
         yield_point: None,
         valid: ValidTable {
             displacement_over_radius_max: 0.07,

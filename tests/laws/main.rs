@@ -8,6 +8,7 @@ mod impacts;
 mod inverse;
 mod law_file;
 mod law_guarantees;
+mod pair_law;
 mod rebound_inertia;
 mod theory_command;
 mod theory_compare;

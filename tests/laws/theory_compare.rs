@@ -180,6 +180,7 @@ fn the_command_goes_from_impact_folders_and_a_law_file_to_both_files() {
         impacts: Some(impacts.clone()),
         out: None,
         json: false,
+        series: None,
         unverified: false,
     };
     args.run(&context).unwrap();

@@ -2,7 +2,7 @@
 
 use crate::Result;
 use crate::bed::filling::feed::Feed;
-use crate::bed::scene::{GrainMaterial, PairContact};
+use crate::bed::scene::{FITTED, GrainMaterial, OWN, PairContact};
 use crate::dem::bodies::enclosure::Room;
 use crate::dem::bodies::machine::BodyState;
 use crate::dem::dynamics::any::AnyBed;
@@ -11,6 +11,7 @@ use crate::dem::dynamics::{Normals, Parts};
 use crate::dem::force::by_material::Table;
 use crate::dem::force::mixture::Mixture;
 use crate::dem::force::named::{Constants, Effects};
+use crate::dem::force::paired::OfPair;
 use crate::dem::grains::Grains;
 use crate::law::{AnyLaw, LawFile};
 use crate::theory::Theory;
@@ -39,6 +40,8 @@ pub struct Recipe<'a> {
     pub contact: &'a Constants,
     /// Pairs of materials with effects of their own.
     pub pairs: &'a [PairContact],
+    /// Pairs of materials with a law of their own.
+    pub pair_laws: Vec<PairedLaw>,
     /// Whether contacts of more than one kind can occur; if not, all are of `material`.
     pub is_mixture: bool,
     /// Material of the first group of grains.
@@ -65,6 +68,37 @@ pub fn laws(
         .map(|(index, material)| match used(index) {
             true => material.law_in(name, given),
             false => Ok(AnyLaw::Theory(Theory::Hertz, material.material)),
+        })
+        .collect()
+}
+
+/// The law of two materials together.
+#[derive(Debug, Clone)]
+pub struct PairedLaw {
+    /// The materials, that of the particle of the law first.
+    between: [usize; 2],
+    /// The law.
+    pub law: AnyLaw,
+    /// Radius of the second body over that of the particle, infinite where it is flat.
+    ratio: f64,
+}
+
+/// Laws of pairs of materials in the run called `name`: where the materials have fitted laws.
+///
+/// # Errors
+/// As [`LawFile::law`].
+pub fn pair_laws(pairs: &[PairContact], name: &str) -> Result<Vec<PairedLaw>> {
+    let fitted = name == FITTED || name == OWN;
+    let own = pairs.iter().filter(|_| fitted);
+    own.filter_map(|pair| Some((pair.between, pair.law.as_ref()?)))
+        .map(|(between, law)| {
+            let bodies = law.bodies();
+            let other = bodies.target_radius_m.unwrap_or(f64::INFINITY);
+            Ok(PairedLaw {
+                between,
+                law: AnyLaw::Fitted(law.file().law()?),
+                ratio: other / bodies.particle_radius_m,
+            })
         })
         .collect()
 }
@@ -99,7 +133,13 @@ pub fn assemble(recipe: &Recipe, parts: Parts) -> Result<Box<dyn AnyBed>> {
 
 fn mixture(recipe: &Recipe, parts: Parts) -> Result<Box<dyn AnyBed>> {
     let materials = recipe.materials.iter().map(|material| &material.material);
-    let mixture = Mixture::new(recipe.laws.iter().zip(materials))?;
+    let own = recipe.pair_laws.iter();
+    let mixture =
+        Mixture::new(recipe.laws.iter().zip(materials))?.with_pairs(own.map(|own| OfPair {
+            between: own.between,
+            law: &own.law,
+            ratio: own.ratio,
+        }))?;
     let effects = Table::new(recipe.materials.len(), |a, b| {
         let pairs = recipe.pairs.iter().rev();
         let own = b.and_then(|b| pairs.clone().find(|pair| pair.is_of(a, b)));

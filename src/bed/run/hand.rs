@@ -2,7 +2,7 @@
 
 use crate::bed::filling::drain::Drain;
 use crate::bed::measures::series::Row;
-use crate::bed::run::assembly::{Recipe, Start, assemble, elastic, laws};
+use crate::bed::run::assembly::{Recipe, Start, assemble, elastic, laws, pair_laws};
 use crate::bed::run::begin;
 use crate::bed::scene::{Scene, Stage};
 use crate::bed::stages::time_step;
@@ -51,6 +51,7 @@ fn recipe<'a>(scene: &'a Scene, laws: Vec<AnyLaw>, contact: &'a Constants) -> Re
         laws,
         contact,
         pairs: &[],
+        pair_laws: Vec::new(),
         is_mixture: scene.is_mixture(),
         material: scene.groups[0].material,
         monodisperse: smallest == largest,
@@ -73,7 +74,7 @@ impl Start {
 pub(in crate::bed) struct Ready {
     bed: Box<dyn AnyBed>,
     terms: Terms,
-    /// Law of each material.
+    /// Law of each material, then those of pairs of materials.
     pub(in crate::bed) laws: Vec<AnyLaw>,
 }
 
@@ -94,21 +95,30 @@ impl Ready {
         })
     }
 
-    /// For the stages after the packing, under one law of each material.
-    pub(in crate::bed) fn under(scene: &Scene, laws: Vec<AnyLaw>, start: &Start) -> Result<Self> {
-        let steps = time_step::steps_under(scene, &laws)?;
+    /// For the stages after the packing, under one law of each material, in the run called `name`.
+    pub(in crate::bed) fn under(
+        scene: &Scene,
+        name: &str,
+        laws: Vec<AnyLaw>,
+        start: &Start,
+    ) -> Result<Self> {
+        let of_pairs = pair_laws(&scene.pairs, name)?;
+        let mut all = laws.clone();
+        all.extend(of_pairs.iter().map(|own| own.law.clone()));
+        let steps = time_step::steps_under(scene, &all)?;
         let recipe = Recipe {
             pairs: &scene.pairs,
+            pair_laws: of_pairs,
             ..recipe(scene, laws, &scene.contact)
         };
         Ok(Self {
             bed: assemble(&recipe, parts(scene, start)?)?,
             terms: Terms::of(scene, steps),
-            laws: recipe.laws,
+            laws: all,
         })
     }
 
-    /// The run of its stages, and the law of each material.
+    /// The run of its stages, and the laws of materials and pairs.
     pub(in crate::bed) fn run<'a>(
         self,
         scene: &Scene,
@@ -126,6 +136,8 @@ impl Ready {
 pub struct Hand {
     scene: Scene,
     start: Start,
+    /// Name of the law.
+    name: String,
     laws: Vec<AnyLaw>,
     run: Run<'static>,
     packs: bool,
@@ -154,10 +166,12 @@ impl Hand {
         let laws = laws(&scene.materials, |index| scene.uses(index), name, given)?;
         let start = begin(&scene, seed)?;
         let packs = scene.stages.iter().any(Stage::prepares);
-        let run = Self::ready(&scene, &laws, &start, packs)?;
+        let name = name.to_owned();
+        let run = Self::ready(&scene, (&name, &laws), &start, packs)?;
         Ok(Self {
             scene,
             start,
+            name,
             laws,
             run,
             packs,
@@ -166,10 +180,15 @@ impl Hand {
         })
     }
 
-    fn ready(scene: &Scene, laws: &[AnyLaw], start: &Start, packs: bool) -> Result<Run<'static>> {
+    fn ready(
+        scene: &Scene,
+        (name, laws): (&str, &[AnyLaw]),
+        start: &Start,
+        packs: bool,
+    ) -> Result<Run<'static>> {
         let ready = match packs {
             true => Ready::to_pack(scene, start)?,
-            false => Ready::under(scene, laws.to_vec(), start)?,
+            false => Ready::under(scene, name, laws.to_vec(), start)?,
         };
         // an observer that is nothing takes no memory
         Ok(ready.run(scene, start, Box::leak(Box::new(()))).0)
@@ -193,7 +212,8 @@ impl Hand {
             match self.packs {
                 true => {
                     self.start.goes_on_from(&self.run);
-                    let run = Self::ready(&self.scene, &self.laws, &self.start, false)?;
+                    let run =
+                        Self::ready(&self.scene, (&self.name, &self.laws), &self.start, false)?;
                     let packed = std::mem::replace(&mut self.run, run);
                     self.packing = packed.done().rows;
                     self.packs = false;

@@ -190,7 +190,7 @@ fn under_law(
     options: &Options,
 ) -> Result<LawRun> {
     let began = Instant::now();
-    let ready = Ready::under(scene, laws, start)?;
+    let ready = Ready::under(scene, name, laws, start)?;
     let plan = format!("{} {:?} {name} {:?}", scene.hash, options.seed, ready.laws);
     let mut watch = Watch::new(name, &folder(options, name), scene, options);
     let checkpoint = checkpoint(name, options);

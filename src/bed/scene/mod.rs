@@ -240,6 +240,7 @@ impl Scene {
         scene.check_room()?;
         scene.check_regions()?;
         scene.check_moves()?;
+        scene.check_pair_laws()?;
         Ok(scene)
     }
 

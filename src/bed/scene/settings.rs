@@ -73,12 +73,14 @@ macro_rules! tables {
         #[serde(deny_unknown_fields)]
         pub(super) struct PairTable {
             pub(super) between: [String; 2],
+            pub(super) law: Option<String>,
             $($key: Option<f64>,)+
         }
 
         keys! {
             PairTable "What is not named is as in `[contact]`." {
                 between: key("the two materials", "of `materials`", "['copper', 'steel']"),
+                law: key("law of both together, in runs under fitted laws: a law file with `[pair]`, of two spheres or a sphere on a half-space", "a law file", "'steel-on-copper.toml'").or("the laws of both in series"),
                 $($key: <$kind as Named>::LINE.or("of `[contact]`"),)+
             }
         }

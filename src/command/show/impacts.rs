@@ -5,6 +5,7 @@ use crate::Result;
 use crate::case::Case;
 use crate::curve::{Impact, MapPoint, Part, ParticleMap};
 use crate::impact::Simulated;
+use crate::impact::pair::SimulatedPair;
 use crate::plan::Plan;
 use crate::report::chart::{Mark, Series};
 use crate::report::field_map::FieldMap;
@@ -174,26 +175,53 @@ fn restitution(sphere: Sphere, impacts: &[&Impact], laws: &[&NamedLaw]) -> Resul
     Figure::restitution(series)
 }
 
+/// The particle of an impact at two moments.
+#[derive(Debug, Clone, Copy)]
+pub struct Shown<'a> {
+    /// Impact speed, m/s.
+    velocity: f64,
+    compressed: &'a ParticleMap,
+    rebound: &'a ParticleMap,
+}
+
+impl<'a> From<&'a Simulated> for Shown<'a> {
+    fn from(one: &'a Simulated) -> Self {
+        Shown {
+            velocity: one.impact.summary.velocity_m_s,
+            compressed: &one.compressed,
+            rebound: &one.rebound,
+        }
+    }
+}
+
+impl<'a> From<&'a SimulatedPair> for Shown<'a> {
+    fn from(one: &'a SimulatedPair) -> Self {
+        Shown {
+            velocity: one.impact.summary.velocity_m_s,
+            compressed: &one.compressed[0],
+            rebound: &one.rebound[0],
+        }
+    }
+}
+
 /// Von Mises stress at the largest compression and plastic strain after rebound, at the slowest and the fastest speed.
 ///
 /// # Errors
 /// [`crate::Error::Figure`] when one cannot be drawn.
-pub fn maps(impacts: &[Simulated]) -> Result<Vec<Figure>> {
-    let mut shown: Vec<&Simulated> = impacts.first().into_iter().collect();
+pub fn maps(impacts: &[Shown]) -> Result<Vec<Figure>> {
+    let mut shown: Vec<&Shown> = impacts.first().into_iter().collect();
     if impacts.len() > 1 {
         shown.extend(impacts.last());
     }
     let mut figures = Vec::new();
     for one in shown {
-        let speed = significant(one.impact.summary.velocity_m_s, 4);
+        let speed = significant(one.velocity, 4);
         figures.push(map(
             format!("von_mises_V{speed}"),
             format!("Von Mises stress at the largest compression, {speed} m/s. {CAPPED}"),
-            field("von Mises stress", "Pa", &one.compressed, |p| {
-                p.von_mises_pa
-            }),
+            field("von Mises stress", "Pa", one.compressed, |p| p.von_mises_pa),
         )?);
-        let strain = field("equivalent plastic strain", "", &one.rebound, |p| {
+        let strain = field("equivalent plastic strain", "", one.rebound, |p| {
             p.equivalent_plastic_strain
         });
         if strain.points.iter().any(|point| point.value > 0.0) {

@@ -13,7 +13,7 @@ pub(crate) mod thesis;
 pub(crate) mod validate;
 
 pub use bed::bed;
-pub use impacts::{choices, curves, maps};
+pub use impacts::{Shown, choices, curves, maps};
 pub use law::fit;
 
 use crate::Result;
@@ -55,6 +55,29 @@ pub fn laws(file: &LawFile, material: &Material) -> Result<Vec<NamedLaw>> {
         name: theory.name().to_owned(),
         role: Role::Theory(theory.place()),
         law: AnyLaw::Theory(theory, *material),
+    }));
+    Ok(laws)
+}
+
+/// The fitted law of a pair, every theory that is stated for two bodies and shown unasked, then `others` under their names.
+///
+/// # Errors
+/// As [`LawFile::law`].
+pub fn laws_of_pair<'a>(
+    file: &LawFile,
+    effective: &Material,
+    others: impl Iterator<Item = (&'static str, &'a AnyLaw)>,
+) -> Result<Vec<NamedLaw>> {
+    let of_pairs =
+        |law: &NamedLaw| !matches!(law.law, AnyLaw::Theory(theory, _) if !theory.is_of_pairs());
+    let mut laws: Vec<NamedLaw> = laws(file, effective)?
+        .into_iter()
+        .filter(of_pairs)
+        .collect();
+    laws.extend(others.map(|(name, law)| NamedLaw {
+        name: name.to_owned(),
+        role: Role::Other,
+        law: law.clone(),
     }));
     Ok(laws)
 }
@@ -189,7 +212,7 @@ pub fn references(laws: &[NamedLaw]) -> Vec<String> {
     laws.iter()
         .filter_map(|law| match law.law {
             AnyLaw::Theory(theory, _) => Some(format!("{}: {}", law.name, theory.reference())),
-            AnyLaw::Fitted(_) => None,
+            AnyLaw::Fitted(_) | AnyLaw::Series(_) => None,
         })
         .collect()
 }
@@ -199,8 +222,19 @@ pub fn references(laws: &[NamedLaw]) -> Vec<String> {
 pub fn limits(file: &LawFile) -> Vec<String> {
     let valid = &file.valid;
     let outside = valid.displacement_over_radius_max;
+    let met = match &file.pair {
+        None => {
+            "One particle hits a rigid, frictionless, flat wall at a right angle and without spin."
+                .to_owned()
+        }
+        Some(pair) => format!(
+            "Two bodies meet without friction at a right angle and without spin: {}. The law is of these two materials and of bodies \
+             similar to these.",
+            pair.bodies()
+        ),
+    };
     [
-        "One particle hits a rigid, frictionless, flat wall at a right angle and without spin.".to_owned(),
+        met,
         "The material does not depend on rate or temperature, and it does not crack.".to_owned(),
         format!(
             "The fitted law rests on impacts from {} to {} m/s and flattenings up to δ/R = {outside:.3}; beyond that it \

@@ -1,6 +1,7 @@
-//! Mixture: normal laws of a bed of several materials, each contact two flattening laws in series.
+//! Mixture: normal laws of a bed of several materials, each contact two flattening laws in series, or one law of the pair.
 
 use super::normal::{Histories, NormalModel, Squeeze, UNLOADING_PROBE};
+use super::paired::{OTHER_RADII, OfPair, Paired};
 use super::sides::{Empty, Flattened};
 use crate::Result;
 use crate::contact::Coverage;
@@ -19,10 +20,14 @@ pub const MOST_MATERIALS: usize = RIGID as usize;
 /// Laws of several materials; serves contacts between grains and of grains with bodies.
 ///
 /// Materials are counted from 0 as given; a grain has its own in [`crate::dem::grains::Grains::materials`], a body in
-/// [`crate::dem::bodies::machine::Machine::materials`]. How two laws share a contact: [`crate::contact::pair`].
+/// [`crate::dem::bodies::machine::Machine::materials`]. How two laws share a contact: [`crate::contact::pair`]. Two materials may have
+/// a law of their own instead, which is of both bodies: their whole overlap under the effective radius.
 #[derive(Clone)]
 pub struct Mixture {
+    /// Laws of the materials, then those of pairs.
     kinds: Arc<[Kind]>,
+    /// Pairs of materials that have a law of their own.
+    pairs: Arc<[Paired]>,
 }
 
 /// One material.
@@ -53,7 +58,70 @@ impl Mixture {
             .collect();
         Ok(Self {
             kinds: kinds?.into(),
+            pairs: Arc::new([]),
         })
+    }
+
+    /// The same with laws for contacts of two materials, in place of the two laws in series; of several for the same two the last.
+    ///
+    /// # Errors
+    /// Those of [`AnyLaw::visit`].
+    pub fn with_pairs<'a>(self, laws: impl IntoIterator<Item = OfPair<'a>>) -> Result<Self> {
+        let again = |kind: &Kind| Kind {
+            law: kind.law.empty(),
+            modulus: kind.modulus,
+        };
+        let mut kinds: Vec<Kind> = self.kinds.iter().map(again).collect();
+        let mut pairs = Vec::new();
+        for OfPair {
+            between,
+            law,
+            ratio,
+        } in laws
+        {
+            pairs.push(Paired {
+                between: between.map(|material| material as u8),
+                ratio,
+                kind: kinds.len(),
+            });
+            kinds.push(Kind {
+                law: law.visit(Empty)?,
+                modulus: f64::INFINITY,
+            });
+        }
+        pairs.reverse();
+        Ok(Self {
+            kinds: kinds.into(),
+            pairs: pairs.into(),
+        })
+    }
+
+    /// The law that two materials have of their own.
+    fn of_pair(&self, [a, b]: [u8; 2]) -> Option<&Paired> {
+        let mut pairs = self.pairs.iter();
+        pairs.find(|pair| pair.between == [a, b] || pair.between == [b, a])
+    }
+
+    /// What flattens in contacts of two materials.
+    fn bodies(&self, materials: [u8; 2]) -> Bodies {
+        match (self.of_pair(materials), materials) {
+            (Some(pair), _) => Bodies::Paired(pair.kind),
+            (None, [_, RIGID]) => Bodies::OnRigid,
+            (None, [a, b]) if a == b => Bodies::Alike,
+            (None, _) => Bodies::Unlike,
+        }
+    }
+
+    /// Kinds whose sides a contact of two materials has.
+    fn sides(&self, materials: [u8; 2]) -> [Option<usize>; 2] {
+        // a contact that is to be read from a file has no materials yet
+        let count = self.kinds.len() - self.pairs.len();
+        let held = |material: u8| Some(material as usize).filter(|kind| *kind < count);
+        match self.bodies(materials) {
+            Bodies::Paired(kind) => [Some(kind), None],
+            Bodies::OnRigid | Bodies::Alike => [held(materials[0]), None],
+            Bodies::Unlike => materials.map(held),
+        }
     }
 
     fn modulus(&self, material: u8) -> f64 {
@@ -91,6 +159,8 @@ enum Bodies {
     OnRigid,
     /// Two materials.
     Unlike,
+    /// Two materials whose contact is of one law, of this kind.
+    Paired(usize),
 }
 
 /// History of a contact on its way to another.
@@ -101,19 +171,20 @@ struct Taken {
 }
 
 impl Contact {
-    fn bodies(&self) -> Bodies {
-        match self.materials {
-            [_, RIGID] => Bodies::OnRigid,
-            [a, b] if a == b => Bodies::Alike,
-            _ => Bodies::Unlike,
-        }
-    }
-
     /// Each flattening body with what it takes of `overlap`, and the radius against the plane it is pressed like:
     /// material, side, flattening, radius.
     fn loads(&self, mixture: &Mixture, squeeze: &Squeeze) -> [(usize, usize, f64, f64); 2] {
         let [first, second] = self.materials.map(|material| mixture.modulus(material));
         let effective = 1.0 / (1.0 / squeeze.radii[0] + 1.0 / squeeze.radii[1]);
+        if let Some(pair) = mixture.of_pair(self.materials) {
+            // one side stands for both
+            return [(
+                pair.kind,
+                self.sides[0] as usize,
+                squeeze.overlap,
+                effective,
+            ); 2];
+        }
         let taken = self.share * squeeze.overlap;
         [
             (
@@ -150,22 +221,22 @@ impl Chunk {
                 |(_, contact)| contact.share,
             ),
         };
-        for body in 0..2 {
-            let kind = materials[body] as usize;
-            if body == 1 && materials[0] == materials[1] {
-                contact.sides[1] = contact.sides[0];
-            } else if kind < self.flattened.len() {
+        for (body, kind) in self.mixture.sides(materials).into_iter().enumerate() {
+            if let Some(kind) = kind {
                 let old = kept.map(|(chunk, contact)| {
                     (&*chunk.flattened[kind], contact.sides[body] as usize)
                 });
                 contact.sides[body] = self.flattened[kind].add(old) as u32;
             }
         }
+        if materials[0] == materials[1] {
+            contact.sides[1] = contact.sides[0];
+        }
         self.contacts.push(contact);
     }
 
     fn press_one(&mut self, at: usize, squeeze: &Squeeze) -> Pressed {
-        let bodies = self.contacts[at].bodies();
+        let bodies = self.mixture.bodies(self.contacts[at].materials);
         if matches!(bodies, Bodies::Unlike) {
             self.find_share(at, squeeze);
         }
@@ -174,7 +245,7 @@ impl Chunk {
             self.flattened[kind].trial(side, flattening, radius)
         };
         let state = match bodies {
-            Bodies::OnRigid => side(first),
+            Bodies::OnRigid | Bodies::Paired(_) => side(first),
             Bodies::Alike => {
                 let half = side(first);
                 in_series([half; 2])
@@ -186,7 +257,7 @@ impl Chunk {
         };
         let [mut radius, mut depth] = remember(first);
         match bodies {
-            Bodies::OnRigid => {}
+            Bodies::OnRigid | Bodies::Paired(_) => {}
             Bodies::Alike => depth *= 2.0,
             Bodies::Unlike => {
                 let other = remember(second);
@@ -194,11 +265,19 @@ impl Chunk {
                 depth += other[1];
             }
         }
+        let flattening = match bodies {
+            // where the bodies meet within the overlap: as by Hertz, no law of both says it
+            Bodies::Paired(_) => {
+                let taken = self.contacts[at].share * squeeze.overlap;
+                [taken, squeeze.overlap - taken]
+            }
+            Bodies::OnRigid | Bodies::Alike | Bodies::Unlike => [first.2, second.2],
+        };
         Pressed {
             force: state.force,
             stiffness: state.stiffness,
             contact_radius: radius,
-            flattening: [first.2, second.2],
+            flattening,
             depth,
         }
     }
@@ -223,8 +302,8 @@ impl Chunk {
     ) -> impl Iterator<Item = (f64, (usize, usize, f64, f64))> {
         let contact = &self.contacts[at];
         let loads = contact.loads(&self.mixture, squeeze);
-        let counts = match contact.bodies() {
-            Bodies::OnRigid => [1.0, 0.0],
+        let counts = match self.mixture.bodies(contact.materials) {
+            Bodies::OnRigid | Bodies::Paired(_) => [1.0, 0.0],
             Bodies::Alike => [2.0, 0.0],
             Bodies::Unlike => [1.0, 1.0],
         };
@@ -248,6 +327,25 @@ impl Chunk {
     }
 }
 
+impl Chunk {
+    /// A contact under the law of a pair made of bodies of other proportions, pressed further than those do not matter.
+    fn beyond_its_radii(&self, at: usize, squeeze: &Squeeze) -> Option<Coverage> {
+        let contact = &self.contacts[at];
+        let pair = self.mixture.of_pair(contact.materials)?;
+        if pair.is_made_of(contact.materials, squeeze.radii) {
+            return None;
+        }
+        let [(kind, side, overlap, radius), _] = contact.loads(&self.mixture, squeeze);
+        let most = self.flattened[kind]
+            .largest(side, radius)
+            .unwrap_or(overlap);
+        (most > OTHER_RADII * radius).then(|| Coverage {
+            beyond: true,
+            ..Coverage::default()
+        })
+    }
+}
+
 impl Histories for Chunk {
     fn press(&mut self, at: &[u32], squeezes: &[Squeeze], pressed: &mut [Pressed]) {
         for ((&at, squeeze), pressed) in at.iter().zip(squeezes).zip(pressed) {
@@ -258,9 +356,10 @@ impl Histories for Chunk {
     fn forget(&mut self, at: usize) {
         let contact = &mut self.contacts[at];
         contact.share = Self::hertz_share(&self.mixture, contact.materials);
-        for (kind, &side) in contact.materials.iter().zip(&contact.sides) {
-            if let Some(sides) = self.flattened.get_mut(*kind as usize) {
-                sides.forget(side as usize);
+        let kinds = self.mixture.sides(contact.materials);
+        for (kind, &side) in kinds.into_iter().zip(&contact.sides) {
+            if let Some(kind) = kind {
+                self.flattened[kind].forget(side as usize);
             }
         }
     }
@@ -268,11 +367,10 @@ impl Histories for Chunk {
     fn take(&mut self, at: usize) -> Box<dyn Any> {
         let contact = &self.contacts[at];
         let (materials, share) = (contact.materials, contact.share);
+        let kinds = self.mixture.sides(materials);
         let sides = std::array::from_fn(|body| {
-            // two bodies of one material share a side
-            let own = body == 0 || materials[0] != materials[1];
-            let kind = self.flattened.get_mut(materials[body] as usize)?;
-            own.then(|| kind.take(contact.sides[body] as usize))
+            let side = contact.sides[body] as usize;
+            Some(self.flattened[kinds[body]?].take(side))
         });
         self.forget(at);
         Box::new(Taken {
@@ -291,10 +389,10 @@ impl Histories for Chunk {
             return;
         }
         contact.share = taken.share;
+        let kinds = self.mixture.sides(taken.materials);
         for (body, history) in taken.sides.iter().enumerate() {
-            let kind = self.flattened.get_mut(taken.materials[body] as usize);
-            if let (Some(kind), Some(history)) = (kind, history) {
-                kind.put(contact.sides[body] as usize, &**history);
+            if let (Some(kind), Some(history)) = (kinds[body], history) {
+                self.flattened[kind].put(contact.sides[body] as usize, &**history);
             }
         }
     }
@@ -345,6 +443,7 @@ impl Histories for Chunk {
                 let side = self.flattened[kind].coverage(side, flattening, radius);
                 side.times(count, 1.0)
             })
+            .chain(self.beyond_its_radii(at, &squeeze))
             .fold(Coverage::default(), Coverage::and)
     }
 

@@ -11,6 +11,7 @@ pub(crate) mod meeting;
 pub mod mixture;
 pub mod named;
 pub mod normal;
+pub mod paired;
 pub mod rolling;
 pub(crate) mod sides;
 pub mod slider;

@@ -15,10 +15,11 @@ const HERTZ: &str = include_str!("hertz.h");
 const CLOSED_FORM: &str = include_str!("closed_form.h");
 const ELASTOPLASTIC: &str = include_str!("elastoplastic.h");
 const PRESS: &str = include_str!("press.h");
+const PAIR_PRESS: &str = include_str!("pair_press.h");
 const INERTIA: &str = include_str!("inertia.h");
 
-/// The kernel of `law`: constants as macros, types, and the functions `law_forget`, `law_wall`, `law_pair`,
-/// `law_elastic_energy` and, where the law has inertia, `law_inertia`, all of them `static inline` unless `LAW_FUNCTION`
+/// The kernel of `law`: constants as macros, types, and the functions `law_forget`, `law_wall`, `law_pair` (of the law of a pair of bodies
+/// `law_press` in their place), `law_elastic_energy` and, where the law has inertia, `law_inertia`, all of them `static inline` unless `LAW_FUNCTION`
 /// is defined before.
 #[must_use]
 pub fn text(law: &Portable) -> String {
@@ -39,7 +40,15 @@ pub fn text(law: &Portable) -> String {
         }
     };
     constants.push(("VALID_TO", law.file.valid.displacement_over_radius_max));
-    let mut parts = vec![TYPES.to_owned(), curve, PRESS.to_owned()];
+    let press = match law.pair() {
+        None => PRESS,
+        Some(pair) => {
+            let [first, second] = pair.materials().map(|m| m.contact_modulus());
+            constants.push(("SHARE", 1.0 / (1.0 + first / second)));
+            PAIR_PRESS
+        }
+    };
+    let mut parts = vec![TYPES.to_owned(), curve, press.to_owned()];
     if law.inertia() > 0.0 {
         constants.push(("INERTIA", law.inertia()));
         constants.push(("DENSITY", law.material().density));

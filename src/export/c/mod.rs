@@ -20,6 +20,7 @@ pub struct Header;
 impl Dialect for Header {
     const NAME: &'static str = "c";
     const PAIR: Option<PairExport> = Some(export_with);
+    const OF_PAIRS: bool = true;
 
     fn export(law: &Portable) -> Result<Vec<Artifact>> {
         Ok(export(law))
@@ -73,6 +74,34 @@ pub fn comment(law: &Portable) -> String {
     text
 }
 
+/// How the self-test presses its bodies: what stands for each word of the template.
+type Pressing = [(&'static str, &'static str); 4];
+
+/// Spheres and walls of one material.
+const OF_ONE: Pressing = [
+    ("@SIDES@", "hit->radius_2 > 0.0 ? 2.0 : 1.0"),
+    ("@SHARE@", "share = 0.0, "),
+    ("@ALIKE@", "2"),
+    (
+        "@PRESS@",
+        "        if (hit->radius_2 > 0.0)
+            p = law_pair(x, hit->radius_1, hit->radius_2, &side_1, &side_2, &share);
+        else
+            p = law_wall(x, hit->radius_1, &side_1);",
+    ),
+];
+
+/// The two bodies of a pair.
+const OF_PAIR: Pressing = [
+    ("@SIDES@", "1.0"),
+    ("@SHARE@", ""),
+    ("@ALIKE@", "1"),
+    (
+        "@PRESS@",
+        "        p = law_press(x, hit->radius_1, hit->radius_2, &side_1);",
+    ),
+];
+
 /// Reference impacts compiled in, with a `main` that runs them.
 fn self_test(law: &Portable) -> String {
     let mut impacts = String::new();
@@ -96,7 +125,13 @@ fn self_test(law: &Portable) -> String {
     for point in &law.reference.trajectory {
         let _ = writeln!(points, "    {{{:e}, {:e}}},", point.time, point.flattening);
     }
-    let filled = SELF_TEST
+    let pressing = match law.pair() {
+        None => OF_ONE,
+        Some(_) => OF_PAIR,
+    };
+    let template = SELF_TEST.to_owned();
+    let template = (pressing.iter()).fold(template, |text, (word, with)| text.replace(word, with));
+    let filled = template
         .replace("LAW_IMPACT_ROWS\n", &impacts)
         .replace("LAW_TRAJECTORY_ROWS\n", &points);
     kernel::named(&filled, law).replace("@FILE@", &format!("{}.h", law.identifier))

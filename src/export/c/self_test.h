@@ -32,11 +32,11 @@ static int law_run_impact(int number)
 {
     const law_impact *hit = &law_impacts[number];
     const int steps = 200000; /* of the contact time */
-    const double dt = hit->contact_time / steps, sides = hit->radius_2 > 0.0 ? 2.0 : 1.0;
+    const double dt = hit->contact_time / steps, sides = @SIDES@;
     law_side side_1, side_2;
     law_pressed p = {0.0, 0.0, 0.0, {0.0, 0.0}, 0.0};
-    double x = 0.0, v = hit->velocity, share = 0.0, most = 0.0, strongest = 0.0, last = 0.0, worst = 0.0;
-    size_t next = 0, points = number < 2 ? sizeof law_trajectory / sizeof law_trajectory[0] : 0;
+    double x = 0.0, v = hit->velocity, @SHARE@most = 0.0, strongest = 0.0, last = 0.0, worst = 0.0;
+    size_t next = 0, points = number < @ALIKE@ ? sizeof law_trajectory / sizeof law_trajectory[0] : 0;
     int step, misses = 0;
     law_forget(&side_1);
     law_forget(&side_2);
@@ -44,10 +44,7 @@ static int law_run_impact(int number)
         double x_0 = x, v_0 = v, force = p.force;
         v -= 0.5 * dt / hit->mass * force;
         x += dt * v;
-        if (hit->radius_2 > 0.0)
-            p = law_pair(x, hit->radius_1, hit->radius_2, &side_1, &side_2, &share);
-        else
-            p = law_wall(x, hit->radius_1, &side_1);
+@PRESS@
         v -= 0.5 * dt / hit->mass * p.force;
         if (p.force > strongest)
             strongest = p.force;

@@ -1,6 +1,7 @@
 //! Check of the C header: random paths against the law, its own self-test, and what a call costs.
 
 use super::driver::{Driver, FLAGS, Row, compiler, row, version};
+use super::pair_law;
 use super::paths::{self, Bodies};
 use super::process::run;
 use crate::Result;
@@ -35,6 +36,15 @@ impl Check for CompilerCheck {
             Ok(compiler) => compiler,
             Err(why) => return Ok(Finding::Skipped { why }),
         };
+        if let Some(bodies) = law.pair() {
+            let mut agreements =
+                pair_law::along_paths(law, bodies, &compiler, scratch, (STEPS, PATH_ALLOWED))?;
+            agreements.push(self_test(&compiler, law, scratch)?);
+            return Ok(Finding::Ran {
+                with: version(&compiler)?,
+                agreements,
+            });
+        }
         let driver = Driver::of(law, &compiler, scratch)?;
         let mut agreements = Vec::new();
         for (bodies, name) in [

@@ -6,6 +6,7 @@ mod impacts;
 pub mod lammps;
 pub mod liggghts;
 mod native;
+mod pair_law;
 pub mod paths;
 mod process;
 pub mod series;

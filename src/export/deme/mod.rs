@@ -18,6 +18,7 @@ pub struct Deme;
 impl Dialect for Deme {
     const NAME: &'static str = "deme";
     const PAIR: Option<PairExport> = None;
+    const OF_PAIRS: bool = false;
 
     fn export(law: &Portable) -> Result<Vec<Artifact>> {
         Ok(export(law))

@@ -24,6 +24,7 @@ pub struct Lammps;
 impl Dialect for Lammps {
     const NAME: &'static str = "lammps";
     const PAIR: Option<PairExport> = None;
+    const OF_PAIRS: bool = false;
 
     fn export(law: &Portable) -> Result<Vec<Artifact>> {
         Ok(export(law))

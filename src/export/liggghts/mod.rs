@@ -22,6 +22,7 @@ pub struct Liggghts;
 impl Dialect for Liggghts {
     const NAME: &'static str = "liggghts";
     const PAIR: Option<PairExport> = None;
+    const OF_PAIRS: bool = false;
 
     fn export(law: &Portable) -> Result<Vec<Artifact>> {
         Ok(export(law))

@@ -19,6 +19,7 @@ pub struct MercuryDpm;
 impl Dialect for MercuryDpm {
     const NAME: &'static str = "mercurydpm";
     const PAIR: Option<PairExport> = None;
+    const OF_PAIRS: bool = false;
 
     fn export(law: &Portable) -> Result<Vec<Artifact>> {
         Ok(export(law))

@@ -35,6 +35,7 @@ pub struct Native;
 impl Dialect for Native {
     const NAME: &'static str = "native";
     const PAIR: Option<PairExport> = None;
+    const OF_PAIRS: bool = false;
 
     fn export(law: &Portable) -> Result<Vec<Artifact>> {
         files(law)

@@ -14,6 +14,9 @@ pub trait Dialect {
     /// Files of the contact of two materials; `None` where the form holds one law.
     const PAIR: Option<PairExport>;
 
+    /// Whether the form holds the law of a pair of bodies too, with its effective radius; else it is refused by name.
+    const OF_PAIRS: bool;
+
     /// The files of a law.
     ///
     /// # Errors

@@ -5,6 +5,7 @@ use crate::bed::stages::time_step::rayleigh_time;
 use crate::contact::{LawVisitor, NormalLaw};
 use crate::document::Document;
 use crate::law::file::plain;
+use crate::law::pair::PairTable;
 use crate::law::{FittedLaw, Form, LawFile};
 use crate::material::Material;
 use crate::{Error, Result};
@@ -52,6 +53,16 @@ impl Portable {
         Self::new(file, form, document.hash())
     }
 
+    /// Portable form of a law file, of one material or of a pair of bodies: what targets say that they hold ([`super::dialect::Dialect`]).
+    ///
+    /// # Errors
+    /// As [`Portable::read`], but for a law of a pair.
+    pub fn read_any(path: &Path, form: Option<Form>) -> Result<Self> {
+        let document = Document::read(path)?;
+        let file = LawFile::parse_any(&document)?;
+        Self::new(file, form, document.hash())
+    }
+
     /// Portable form of a law file whose text has the SHA-256 `hash`.
     ///
     /// # Errors
@@ -75,13 +86,19 @@ impl Portable {
         })
     }
 
-    /// Material of the bodies.
+    /// The two bodies of the law of a pair.
+    #[must_use]
+    pub fn pair(&self) -> Option<&PairTable> {
+        self.file.pair.as_ref()
+    }
+
+    /// Material of the bodies; of a pair that of the sphere that stands for both.
     #[must_use]
     pub fn material(&self) -> Material {
         self.file.material()
     }
 
-    /// Radius of the sphere whose impacts were simulated, m: that of the reference impacts.
+    /// Radius of the sphere whose impacts were simulated, m: that of the reference impacts; of a pair the effective one.
     #[must_use]
     pub fn radius(&self) -> f64 {
         self.file.provenance.radius_m
@@ -157,7 +174,19 @@ fn suggested_time_step(law: &FittedLaw, file: &LawFile) -> f64 {
     let material = file.material();
     let stiffness = law.visit(Stiffest(file.valid.displacement_over_radius_max));
     let half_oscillation = PI * (material.sphere_mass(1.0) / stiffness).sqrt();
-    let rayleigh = RAYLEIGH_FRACTION * rayleigh_time(&material, 1.0);
+    let rayleigh = match &file.pair {
+        None => rayleigh_time(&material, 1.0),
+        // waves run through the bodies, not through what stands for both
+        Some(pair) => {
+            let [first, second] = pair.materials();
+            let own = rayleigh_time(&first, pair.particle_radius_m);
+            let other = pair
+                .target_radius_m
+                .map_or(f64::INFINITY, |r| rayleigh_time(&second, r));
+            own.min(other) / file.provenance.radius_m
+        }
+    };
+    let rayleigh = RAYLEIGH_FRACTION * rayleigh;
     rayleigh.min(half_oscillation / STEPS_PER_CONTACT)
 }
 

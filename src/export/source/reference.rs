@@ -2,6 +2,7 @@
 
 use crate::contact::rebound::{Rebound, State, rebound, trajectory};
 use crate::contact::{LawVisitor, NormalLaw};
+use crate::law::pair::PairTable;
 use crate::law::{FittedLaw, LawFile};
 use crate::unit::significant;
 
@@ -13,7 +14,7 @@ const SMALLER: f64 = 0.5;
 /// Impacts of bodies under the law at rest.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reference {
-    /// Equal spheres and a sphere on a wall at every speed, the fastest first, then spheres of unequal radii.
+    /// Equal spheres and a sphere on a wall at every speed, the fastest first, then spheres of unequal radii; of a pair its two bodies.
     pub impacts: Vec<Impact>,
     /// Path of the first two impacts, which flatten each body alike: equal spheres at twice the speed of a sphere on a wall.
     pub trajectory: Vec<Point>,
@@ -22,7 +23,7 @@ pub struct Reference {
 /// One impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Impact {
-    /// Radii, m; the second 0 for a rigid wall.
+    /// Radii, m; the second 0 for a wall.
     pub radii: [f64; 2],
     /// Effective mass, kg.
     pub mass: f64,
@@ -37,7 +38,7 @@ pub struct Impact {
 pub struct Point {
     /// Time since first touch, s.
     pub time: f64,
-    /// Flattening of each body, m.
+    /// Flattening of each body, of a pair of both together, m.
     pub flattening: f64,
     /// Force, N.
     pub force: f64,
@@ -57,6 +58,9 @@ impl LawVisitor for Maker<'_> {
         let file = self.0;
         let radius = file.provenance.radius_m;
         let mass = file.material().sphere_mass(radius);
+        if let Some(bodies) = &file.pair {
+            return of_pair(law, file, bodies);
+        }
         let mut impacts = Vec::new();
         for velocity in speeds(file) {
             let figures = rebound(law, radius, mass, velocity);
@@ -79,6 +83,26 @@ impl LawVisitor for Maker<'_> {
             impacts,
             trajectory: thinned(&trajectory(law, radius, mass, fastest)),
         }
+    }
+}
+
+/// Reference of a pair: its own two bodies at every speed, the fastest first, whose path is the trajectory.
+fn of_pair<L: NormalLaw>(law: &L, file: &LawFile, bodies: &PairTable) -> Reference {
+    let radius = file.provenance.radius_m;
+    let mass = file.material().sphere_mass(radius);
+    let impact = |velocity: f64| Impact {
+        radii: [
+            bodies.particle_radius_m,
+            bodies.target_radius_m.unwrap_or(0.0),
+        ],
+        mass,
+        velocity,
+        figures: rebound(law, radius, mass, velocity),
+    };
+    let fastest = file.valid.velocity_max_m_s;
+    Reference {
+        impacts: speeds(file).into_iter().map(impact).collect(),
+        trajectory: thinned(&trajectory(law, radius, mass, fastest)),
     }
 }
 
