@@ -13,7 +13,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from ._impactlaw import Error, columns_of
+import numpy as np
+
+from ._impactlaw import Case, Error, columns_of
 from ._types import Column, Place
 
 
@@ -96,19 +98,22 @@ def compare(
 def cost(
     case: Place,
     *,
-    velocities: Sequence[str] = (),
+    velocity: float | None = None,
     quick: bool = False,
     ladders: Sequence[str] = (),
     out: Place | None = None,
 ) -> Table:
-    """What accuracy costs: ladders of settings, their errors and times; the columns of `cost.csv`. Compare `impactlaw help cost`."""
+    """What accuracy costs at a speed in m/s, by default the case's fastest: ladders of settings, their errors and times.
+
+    The columns of `cost_V*.csv` of that speed; finished runs stay in the folder. Compare `impactlaw help cost`.
+    """
     folder = Path("out") / _name(case) if out is None else Path(out)
-    words = ["cost", os.fspath(case), "--out", str(folder)]
-    words += [word for velocity in velocities for word in ("--velocity", velocity)]
+    speed = float(Case.from_toml(Path(case)).velocities[-1]) if velocity is None else velocity
+    words = ["cost", os.fspath(case), "--out", str(folder), "--velocity", f"{speed!r} m/s"]
     words += [word for ladder in ladders for word in ("--ladder", ladder)]
     words += ["--quick"] if quick else []
     met = _run(words)
-    return Table(folder / "cost" / "cost.csv", met)
+    return Table(folder / "cost" / f"cost_V{np.format_float_positional(speed, trim='-')}.csv", met)
 
 
 def inverse(

@@ -1,11 +1,12 @@
 """Studies, comparisons and costs as tables."""
 
+import os
 from pathlib import Path
 
 import impactlaw
 import numpy as np
 import pytest
-from conftest import Program
+from conftest import COPPER, Program
 
 STUDY = """
 [particle]
@@ -56,3 +57,12 @@ def test_tables_become_data_frames(copper: Path, tmp_path: Path) -> None:
     runs.save(tmp_path / "saved")
     frame = impactlaw.compare(copper, impacts=tmp_path / "saved", law="atlas").to_pandas()
     assert isinstance(frame, pandas.DataFrame) and len(frame) > 3
+
+
+@pytest.mark.skipif("IMPACTLAW_SLOW" not in os.environ, reason="takes a minute: set IMPACTLAW_SLOW")
+def test_the_cost_of_accuracy_is_the_program_s_file(tmp_path: Path) -> None:
+    path = tmp_path / "soft.toml"
+    path.write_text(COPPER.replace("0.05", "0.2").replace('"4 m/s", "10 m/s"', '"2.5 m/s"'))
+    table = impactlaw.cost(path, quick=True, ladders=["cells, degree 2"], out=tmp_path / "out")
+    assert table.path.name == "cost_V2.5.csv" and len(table["ladder"]) >= 3
+    assert "cells, degree 2" in table["ladder"]
