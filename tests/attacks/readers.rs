@@ -82,6 +82,14 @@ pub const READERS: &[Reader] = &[
         share: 10,
     },
     Reader {
+        name: "law of a pair",
+        sources: &["law/pair.rs"],
+        kind: Kind::Text,
+        seeds: inputs::laws_of_pairs,
+        read: inputs::law_of_pair,
+        share: 5,
+    },
+    Reader {
         name: "results.csv",
         sources: &[
             "discover/table.rs",

@@ -5,7 +5,7 @@ use impactlaw::bed::filling::insert;
 use impactlaw::bed::scene::{Amount, Scene};
 use impactlaw::bed::stages::time_step;
 use impactlaw::case::Case;
-use impactlaw::case::pair::Asked;
+use impactlaw::case::pair::{self, Asked, PairCase, TargetShape};
 use impactlaw::contact::NormalLaw;
 use impactlaw::contact::elastoplastic::Elastoplastic;
 use impactlaw::contact::loading::Loading;
@@ -13,7 +13,9 @@ use impactlaw::dem::bodies::Body;
 use impactlaw::document::Document;
 use impactlaw::export::Target;
 use impactlaw::export::source::portable::Portable;
-use impactlaw::law::{FittedLaw, LawFile};
+use impactlaw::law::pair::PairTable;
+use impactlaw::law::{FittedLaw, LawFile, PairLaw};
+use impactlaw::material::{Flow, Material};
 use impactlaw::plan::pair::pair_plans;
 use impactlaw::plan::plans;
 use impactlaw::study::{Study, group};
@@ -143,6 +145,57 @@ pub(super) fn law(bytes: &[u8], _: &Path) -> Accepted {
             assert!(parts.into_iter().all(is_below), "{}", artifact.name);
         }
     }
+    true
+}
+
+/// Laws of a ball on each shape of a second body, with the numbers that the atlas has for the sphere that stands for both.
+pub(super) fn laws_of_pairs() -> Vec<Vec<u8>> {
+    let metal = |density, young_modulus, strength| Material {
+        density,
+        young_modulus,
+        poisson_ratio: 0.3,
+        flow: Some(Flow::perfectly_plastic(strength)),
+    };
+    let (hard, soft) = (metal(7850.0, 210e9, 1.7e9), metal(2700.0, 70e9, 280e6));
+    let of = |shape| {
+        let pair = PairCase {
+            particle: Case::of("ball", 1e-3, hard, &[1.0, 10.0], 0.05).unwrap(),
+            target: pair::Target {
+                shape,
+                material: soft,
+            },
+        };
+        let both = pair.effective();
+        let mut file = LawFile::of_atlas("ball", &both.material, both.radius).unwrap();
+        file.pair = Some(PairTable::of(&pair));
+        file.text().unwrap().into_bytes()
+    };
+    [
+        TargetShape::HalfSpace,
+        TargetShape::Plate { thickness: 4e-3 },
+        TargetShape::Sphere { radius: 0.5e-3 },
+    ]
+    .map(of)
+    .to_vec()
+}
+
+pub(super) fn law_of_pair(bytes: &[u8], _: &Path) -> Accepted {
+    let document = Document::new("law.toml".as_ref(), text(bytes));
+    let Ok(law) = PairLaw::parse(&document) else {
+        return false;
+    };
+    // nobody who means the law of one material takes it
+    assert!(LawFile::parse(&document).is_err());
+    let again = Document::new("again.toml".as_ref(), law.file().text().unwrap());
+    same(&PairLaw::parse(&again).unwrap(), &law);
+    match law.file().law().unwrap() {
+        FittedLaw::Hertz(_) => {}
+        FittedLaw::ClosedForm(law) => yields_no_energy(&law),
+        FittedLaw::Spline(law) => yields_no_energy(&law),
+    }
+    let portable = Portable::new(law.into_file(), None, document.hash()).unwrap();
+    assert_eq!(Target::C.export(&portable).unwrap().len(), 1);
+    assert!(Target::Liggghts.export(&portable).is_err());
     true
 }
 
