@@ -58,7 +58,7 @@ impl Command for CostArgs {
         "impactlaw cost cases/thesis-3.toml --chapter-3",
     ];
 
-    /// Run the ladders of every speed asked for; write `cost.csv`, `cost.md` and the figures.
+    /// Run the ladders of every speed asked for; write `cost_V*.csv`, `cost_V*.md` and the figures.
     ///
     /// One run at a time on one thread, so that wall times mean something.
     ///

@@ -1,4 +1,4 @@
-//! Row: one rung of a ladder with what it cost and what it missed; the columns of `cost.csv`.
+//! Row: one rung of a ladder with what it cost and what it missed; the columns of `cost_V*.csv`.
 
 use super::{Misfit, Pulse, Rung};
 use crate::curve::{Impact, Status};
