@@ -31,7 +31,7 @@ fn ends_the_same_after_kills(verb: Kept) {
     let whole = tempfile::tempdir().unwrap();
     let began = Instant::now();
     verb.finish(whole.path());
-    let seconds = began.elapsed().as_secs_f64();
+    let mut seconds = began.elapsed().as_secs_f64();
     let mut random = Pcg64::seed_from_u64(verb as u64);
     let (mut kills, mut resumed) = (0, 0);
     while kills < KILLS {
@@ -41,7 +41,12 @@ fn ends_the_same_after_kills(verb: Kept) {
         while kills < KILLS {
             let time = Duration::from_secs_f64(random.random_range(0.02..0.6) * seconds);
             let mut command = verb.command(folder.path());
+            let began = Instant::now();
             if !killed_after(command.stderr(Stdio::null()).spawn().unwrap(), time) {
+                if hits == 0 {
+                    // a whole run: the first one may have had the machine for itself less than this one
+                    seconds = seconds.min(began.elapsed().as_secs_f64());
+                }
                 break;
             }
             (kills, hits) = (kills + 1, hits + 1);
