@@ -63,6 +63,8 @@ impl Installed {
         command
             .env("OMPI_ALLOW_RUN_AS_ROOT", "1")
             .env("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1")
+            // ranks that wait leave their core to those that work
+            .env("OMPI_MCA_mpi_yield_when_idle", "1")
             .args(["--oversubscribe", "-np", &ranks.to_string(), "env"])
             .arg(preload)
             .arg(&self.program);
