@@ -53,7 +53,7 @@ impl Portable {
         Self::new(file, form, document.hash())
     }
 
-    /// Portable form of a law file, of one material or of a pair of bodies: what targets say that they hold ([`super::dialect::Dialect`]).
+    /// Portable form of a law file, of one material or of a pair of bodies; each target says whether it holds them.
     ///
     /// # Errors
     /// As [`Portable::read`], but for a law of a pair.
