@@ -4,6 +4,7 @@ import ast
 import importlib.util
 import json
 from pathlib import Path
+from typing import Any
 
 import pytest
 from conftest import ROOT
@@ -29,4 +30,7 @@ def test_cells_run(path: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
             continue
         exec(compile(ast.parse(text), path.name, "exec"), names)
     if path.stem == "inverse":
-        assert "500" in str(names["found"]) or names["found"]
+        # measured at 500 MPa, with noise
+        found: Any = names["found"]
+        low, high = found["estimate"]["yield_strength_interval_Pa"]
+        assert 0.8 * high < low < 500e6 < high
