@@ -197,7 +197,9 @@ def test_other_threads_go_on_while_an_impact_runs() -> None:
 
 
 LONG = """
-import impactlaw, sys
+import impactlaw, signal, sys
+# who started the tests in the background ignores interrupts, and so would this
+signal.signal(signal.SIGINT, signal.default_int_handler)
 case = impactlaw.Case(radius=1e-3, density=8000, young_modulus=1e11, poisson_ratio=0.3, yield_strength=2e8,
     velocities=[1, 2, 3, 4, 5], tolerance=0.002)
 assert case.plan()["impacts"][0]["predicted_core_s"] > 5
