@@ -122,14 +122,8 @@ impl Chart {
     }
 
     fn inks(&self) -> Vec<Ink> {
-        (0..self.series.len())
-            .map(|i| {
-                let series = &self.series[i];
-                let same = |other: &&Series| other.role == series.role;
-                let nth = self.series[..i].iter().filter(same).count();
-                palette::ink(series.role, nth)
-            })
-            .collect()
+        let roles: Vec<Role> = self.series.iter().map(|series| series.role).collect();
+        palette::inks(&roles)
     }
 
     fn draw_plot(&self, area: &Area, inks: &[Ink]) -> Drawn {

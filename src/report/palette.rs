@@ -58,9 +58,30 @@ pub const THEORIES: [(Rgb, Dash); 15] = [
     ([0x99, 0x99, 0x33], None),
 ];
 
-/// Ink of a series; `nth` counts the series of the same role before it. A theory keeps its ink in every figure.
+/// Inks of the series of a figure. A theory keeps its ink in every figure; what is no theory has none of their colours.
 #[must_use]
-pub fn ink(role: Role, nth: usize) -> Ink {
+pub fn inks(roles: &[Role]) -> Vec<Ink> {
+    let theirs: Vec<Rgb> = roles
+        .iter()
+        .filter_map(|role| match role {
+            Role::Theory(place) => Some(THEORIES[place % THEORIES.len()].0),
+            _ => None,
+        })
+        .collect();
+    let mut free = DISTINCT.to_vec();
+    free.retain(|place| !theirs.contains(&THEORIES[*place].0));
+    if free.is_empty() {
+        free = DISTINCT.to_vec();
+    }
+    let of = |(i, role): (usize, &Role)| {
+        let nth = roles[..i].iter().filter(|other| *other == role).count();
+        ink(*role, nth, &free)
+    };
+    roles.iter().enumerate().map(of).collect()
+}
+
+/// Ink of a series; `nth` counts the series of the same role before it, `free` are the places for those that are no theory.
+fn ink(role: Role, nth: usize, free: &[usize]) -> Ink {
     let solid = |colour, width| Ink {
         colour,
         width,
@@ -86,7 +107,7 @@ pub fn ink(role: Role, nth: usize) -> Ink {
             ..solid([0xd5, 0x5e, 0x00], 2.0)
         },
         Role::Theory(place) => listed(place),
-        Role::Other => listed(DISTINCT[nth % DISTINCT.len()]),
+        Role::Other => listed(free[nth % free.len()]),
     }
 }
 
@@ -130,7 +151,21 @@ mod tests {
     fn inks_of_theories_differ_and_do_not_depend_on_the_order_in_a_figure() {
         for (place, one) in THEORIES.iter().enumerate() {
             assert!(!THEORIES[..place].contains(one), "{place}");
-            assert_eq!(ink(Role::Theory(place), 0), ink(Role::Theory(place), 5));
+            let (alone, last) = (
+                [Role::Theory(place)],
+                [Role::Other, Role::Law, Role::Theory(place)],
+            );
+            assert_eq!(inks(&alone)[0], inks(&last)[2]);
+        }
+    }
+
+    #[test]
+    fn curves_that_are_no_theory_have_no_colour_of_a_theory_beside_them() {
+        for place in 0..THEORIES.len() {
+            let shown = inks(&[Role::Theory(place), Role::Other, Role::Other, Role::Other]);
+            for (nth, one) in shown.iter().enumerate() {
+                assert!(shown[..nth].iter().all(|other| other.colour != one.colour));
+            }
         }
     }
 
