@@ -190,6 +190,26 @@ fn the_book_has_every_chapter_and_so_has_the_documentation() {
 }
 
 #[test]
+fn links_of_the_guide_lead_to_files() {
+    let guide = root().join("src/guide");
+    let mut links = 0;
+    for chapter in chapters() {
+        let text = std::fs::read_to_string(&chapter).unwrap();
+        let targets = text
+            .split("](")
+            .skip(1)
+            .filter_map(|rest| rest.split(')').next());
+        for target in targets.filter(|target| !target.contains("://")) {
+            let file = target.split('#').next().unwrap();
+            let there = file.is_empty() || guide.join(file).is_file();
+            assert!(there, "{}: {target}", chapter.display());
+            links += 1;
+        }
+    }
+    assert!(links > 20, "{links} links");
+}
+
+#[test]
 fn the_gallery_shows_every_picture_that_its_script_makes() {
     let guide = root().join("src/guide");
     let text = std::fs::read_to_string(guide.join("gallery.md")).unwrap();

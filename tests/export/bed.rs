@@ -22,7 +22,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 /// Steps after which rounding has not grown yet, and at the end.
-const STEPS: [usize; 2] = [50, 1000];
+const STEPS: [usize; 2] = [50, 400];
 /// Height up to which grains of the packing are taken to be shaken, m: more than three thousand.
 const LOWER_THIRD: f64 = 12e-3;
 /// Radius over that of the settled packing at which none of its grains touches another: its deepest contact is 0.59 %

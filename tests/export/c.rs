@@ -68,12 +68,16 @@ fn every_published_law_in_c_agrees_with_rust_to_1e_12_and_gives_its_reference_im
     }
 }
 
-/// Every pair of laws of two materials, in both orders.
+/// Every form of one material's law with every form of another's, either first in half of them.
 #[test]
 fn contacts_of_two_materials_in_c_are_those_of_a_mixed_bed_to_1e_12() {
     let laws = laws();
-    for first in &laws {
-        for second in laws.iter().filter(|law| law.name != first.name) {
+    for (at, first) in laws.iter().enumerate() {
+        let others = laws
+            .iter()
+            .enumerate()
+            .filter(|(_, law)| law.name != first.name);
+        for (_, second) in others.filter(|(other, _)| (at < *other) == ((at + other) % 2 == 0)) {
             let folder = tempfile::tempdir().unwrap();
             match series::check(first, second, folder.path()).unwrap() {
                 Finding::Skipped { why } => return codes::skipped("C", &why),

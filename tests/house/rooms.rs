@@ -4,6 +4,7 @@
 use crate::sources::sources;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
+use std::sync::LazyLock;
 use syn::visit::{self, Visit};
 
 /// Rooms that may use those of earlier lines only.
@@ -168,8 +169,13 @@ fn from_root(path: &[String], here: &[String]) -> ModulePath {
     }
 }
 
-/// Every module of the library, by its path, with the modules it uses.
-fn modules() -> BTreeMap<ModulePath, Module> {
+/// Every module of the library, by its path, with the modules it uses; all files are parsed once.
+fn modules() -> &'static BTreeMap<ModulePath, Module> {
+    static MODULES: LazyLock<BTreeMap<ModulePath, Module>> = LazyLock::new(read_modules);
+    &MODULES
+}
+
+fn read_modules() -> BTreeMap<ModulePath, Module> {
     let mut modules = BTreeMap::new();
     for (file, text) in sources() {
         let mut path: ModulePath = file
