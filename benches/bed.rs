@@ -7,7 +7,6 @@
 mod packing;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use impactlaw::bed::stages::time_step::rayleigh_time;
 use impactlaw::contact::pair::{Flat, Twins};
 use impactlaw::contact::{LawVisitor, NormalLaw};
 use impactlaw::dem::dynamics::{Bed, Normals, Parts};
@@ -32,7 +31,7 @@ fn bed<C: ContactLaw, L: NormalLaw>(effects: C, law: &L) -> Bed<C> {
         grains: packing::packing(1),
         machine: packing::walls(1),
         gravity: GRAVITY,
-        dt: 0.2 * rayleigh_time(&MATERIAL, RADIUS),
+        dt: 0.2 * MATERIAL.rayleigh_time(RADIUS),
         skin: 0.2 * RADIUS,
     };
     let normals = Normals {

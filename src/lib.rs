@@ -26,6 +26,7 @@ pub mod dem;
 pub mod discover;
 pub mod document;
 pub mod error;
+pub mod explore;
 pub mod export;
 pub mod files;
 pub mod fit;

@@ -1,7 +1,8 @@
 //! The fit of the atlas: impacts of many materials, one set of polynomials, and its errors at materials that were left out.
 
+use super::law::{Atlas, NUMBERS, SOFT, assemble, polynomials};
 use super::place::{Place, Range, TERMS};
-use super::{Atlas, NUMBERS, SOFT, assemble, polynomials};
+use super::score::Score;
 use crate::case::Case;
 use crate::contact::elastoplastic::Spline;
 use crate::contact::loading::Loading;
@@ -14,7 +15,6 @@ use crate::material::YIELD_PRESSURE_RATIO;
 use crate::{Error, Result};
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
 
 /// An impact in reference units with its case, R = rho = E = 1.
 pub type Reference = (Case, Impact);
@@ -57,41 +57,6 @@ const DIFFERENCE: f64 = 1e-4;
 const START: [f64; 2] = [-0.92, 1.0];
 /// The others: logarithms of 5.66, 6.9, 0.54, 0.4, 7.5.
 const START_OTHERS: [f64; 5] = [1.733, 1.932, -0.616, -0.916, 2.015];
-
-/// Errors without sign of F*, delta* and e (relative; that of e below 0.2 over 0.2).
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Score {
-    /// Impacts.
-    pub impacts: usize,
-    /// Median.
-    pub median: [f64; 3],
-    /// Exceeded by one in twenty.
-    pub twentieth: [f64; 3],
-    /// Largest.
-    pub worst: [f64; 3],
-}
-
-impl Score {
-    /// Of the errors of impacts.
-    #[must_use]
-    pub fn of(errors: &[[f64; 3]]) -> Self {
-        let at = |share: f64| {
-            [0, 1, 2].map(|k| {
-                let mut all: Vec<f64> = errors.iter().map(|e| e[k].abs()).collect();
-                all.sort_by(f64::total_cmp);
-                let place = (share * (all.len().max(1) - 1) as f64).round() as usize;
-                all.get(place).copied().unwrap_or(f64::NAN)
-            })
-        };
-        Score {
-            impacts: errors.len(),
-            median: at(0.5),
-            twentieth: at(0.95),
-            worst: at(1.0),
-        }
-    }
-}
 
 /// An impact of a material.
 #[derive(Debug, Clone)]

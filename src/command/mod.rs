@@ -13,6 +13,7 @@ pub(crate) mod cost;
 pub mod diagnostic;
 pub(crate) mod discover;
 mod discover_add;
+pub(crate) mod explore;
 pub(crate) mod export;
 mod export_case;
 pub mod fit;
@@ -113,6 +114,7 @@ verbs! {
     Tester(tester::TesterArgs),
     Validate(validate::ValidateArgs),
     Cost(cost::CostArgs),
+    Explore(explore::ExploreArgs),
     Export(export::ExportArgs),
     Law(law::LawArgs),
     Init(init::InitArgs),

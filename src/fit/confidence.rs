@@ -2,6 +2,7 @@
 
 use super::form::Form;
 use super::pulse::Pulse;
+use super::quality::LeftOut;
 use super::residual::Objective;
 use super::run::Run;
 use super::solve::{RESAMPLE, polish};
@@ -21,19 +22,6 @@ pub const RESAMPLES: usize = 100;
 const SEED: u64 = 1882;
 /// Part of the refits beyond either end of an interval: 95 % intervals.
 const TAIL: f64 = 0.025;
-
-/// Relative errors of a law that has not seen the speed it predicts.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LeftOut {
-    /// Impact speed that was left out, m/s.
-    pub velocity: f64,
-    /// Error of F*.
-    pub max_force: f64,
-    /// Error of delta*.
-    pub max_displacement: f64,
-    /// Error of e.
-    pub restitution: f64,
-}
 
 /// 95 % intervals of the constants of `F`, each `[low, high]`; `None` for fewer than [`LEAST_RUNS`] runs, or where one in ten
 /// refits finds no law.
@@ -123,25 +111,5 @@ fn predict(pulse: Option<&Pulse>, run: &Run) -> LeftOut {
         max_force: error(&|p| p.force / run.max_force - 1.0),
         max_displacement: error(&|p| p.flattening / run.max_flattening - 1.0),
         restitution: error(&|p| restitution_error(p.restitution, run.restitution)),
-    }
-}
-
-impl LeftOut {
-    /// Largest of the errors, without sign; NaN if one is.
-    #[must_use]
-    pub fn worst(&self) -> f64 {
-        let LeftOut {
-            velocity: _,
-            max_force,
-            max_displacement,
-            restitution,
-        } = *self;
-        let errors = [max_force, max_displacement, restitution];
-        errors.iter().fold(
-            0.0,
-            |worst: f64, e| {
-                if e.abs() <= worst { worst } else { e.abs() }
-            },
-        )
     }
 }

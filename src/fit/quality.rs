@@ -76,3 +76,36 @@ impl Quality {
             )
     }
 }
+
+/// Relative errors of a law that has not seen the speed it predicts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LeftOut {
+    /// Impact speed that was left out, m/s.
+    pub velocity: f64,
+    /// Error of F*.
+    pub max_force: f64,
+    /// Error of delta*.
+    pub max_displacement: f64,
+    /// Error of e.
+    pub restitution: f64,
+}
+
+impl LeftOut {
+    /// Largest of the errors, without sign; NaN if one is.
+    #[must_use]
+    pub fn worst(&self) -> f64 {
+        let LeftOut {
+            velocity: _,
+            max_force,
+            max_displacement,
+            restitution,
+        } = *self;
+        let errors = [max_force, max_displacement, restitution];
+        errors.iter().fold(
+            0.0,
+            |worst: f64, e| {
+                if e.abs() <= worst { worst } else { e.abs() }
+            },
+        )
+    }
+}

@@ -1,8 +1,7 @@
 //! Tables of a law file: the parts that say how good and how general a law is.
 
 use crate::document::keys::{key, keys, table};
-use crate::fit::confidence::LeftOut;
-use crate::fit::quality::Quality;
+use crate::fit::quality::{LeftOut, Quality};
 use serde::{Deserialize, Serialize};
 
 /// `[yield_point]`: the units of the constants.

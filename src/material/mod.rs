@@ -70,6 +70,25 @@ impl Material {
         4.0 / 3.0 * PI * radius.powi(3) * self.density
     }
 
+    /// Time a Rayleigh wave takes over half a sphere of `radius` (m), s.
+    ///
+    /// $$ T_R = \frac{\pi R \sqrt{\rho / G}}{0.1631 \nu + 0.8766} $$
+    ///
+    /// Source: Thornton and Randall 1988; the denominator is the usual fit of the Rayleigh speed over the shear speed.
+    ///
+    /// ```
+    /// use impactlaw::material::Material;
+    /// let glass = Material { density: 2500.0, young_modulus: 5e7, poisson_ratio: 0.3, flow: None };
+    /// // pi * 1e-3 * sqrt(2500 / 1.923e7) / 0.92553 = 3.87e-5 s
+    /// assert!((glass.rayleigh_time(1e-3) - 3.87e-5).abs() < 1e-7);
+    /// ```
+    #[must_use]
+    pub fn rayleigh_time(&self, radius: f64) -> f64 {
+        let nu = self.poisson_ratio;
+        let shear = self.shear_modulus();
+        PI * radius * (self.density / shear).sqrt() / (0.1631 * nu + 0.8766)
+    }
+
     /// Flattening over the radius of a sphere that hits a rigid plane at `velocity` (m/s): were it elastic (Hertz), and were it
     /// fully plastic with the mean pressure [`PLASTIC_PRESSURE_RATIO`] times the flow stress (0 for an elastic body). That is taken
     /// at the strain of the contact: with H = E/10 and E/Y = 2000 it is 17 Y at a/R = 0.5.

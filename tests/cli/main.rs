@@ -8,6 +8,7 @@ mod browser;
 mod cost;
 mod discover;
 mod discover_study;
+mod explore;
 mod film;
 #[path = "../support/four_cases.rs"]
 mod four_cases;

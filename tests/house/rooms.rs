@@ -32,6 +32,7 @@ const ROOMS: Order = &[
     &["bed"],
     &["export"],
     &["report", "prelude"],
+    &["explore"],
     &["command"],
     &["cli"],
     &["guide"],

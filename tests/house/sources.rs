@@ -15,7 +15,8 @@ fn rust_files(folder: &Path, files: &mut Vec<PathBuf>) {
 
 /// Every source file of the library, by its place in `src`, with its text.
 ///
-/// The C interface and the Python package are packages of their own, examples are programs; the program and the list of rooms stand above all rooms.
+/// The C interface, the WebAssembly and the Python package are packages of their own, examples are programs; the program and the list of rooms
+/// stand above all rooms.
 pub fn sources() -> Vec<(PathBuf, String)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let mut files = Vec::new();
@@ -25,7 +26,16 @@ pub fn sources() -> Vec<(PathBuf, String)> {
         let text = std::fs::read_to_string(&path).unwrap();
         (path.strip_prefix(&root).unwrap().to_owned(), text)
     });
-    let apart = ["capi", "examples", "lib.rs", "main.rs", "python"];
+    let apart = [
+        "build.rs",
+        "capi",
+        "examples",
+        "explorer",
+        "explorer.rs",
+        "lib.rs",
+        "main.rs",
+        "python",
+    ];
     inside
         .filter(|(file, _)| !apart.iter().any(|name| file.starts_with(name)))
         .collect()

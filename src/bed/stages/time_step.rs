@@ -18,25 +18,6 @@ use std::f64::consts::PI;
 /// Largest way by which a grain and another or a body may close in one step, over the radius.
 const LONGEST_WAY: f64 = 0.1;
 
-/// Time a Rayleigh wave takes over half a grain, s.
-///
-/// $$ T_R = \frac{\pi R \sqrt{\rho / G}}{0.1631 \nu + 0.8766} $$
-///
-/// Source: Thornton and Randall 1988; the denominator is the usual fit of the Rayleigh speed over the shear speed.
-///
-/// ```
-/// use impactlaw::{bed::stages::time_step::rayleigh_time, material::Material};
-/// let glass = Material { density: 2500.0, young_modulus: 5e7, poisson_ratio: 0.3, flow: None };
-/// // pi * 1e-3 * sqrt(2500 / 1.923e7) / 0.92553 = 3.87e-5 s
-/// assert!((rayleigh_time(&glass, 1e-3) - 3.87e-5).abs() < 1e-7);
-/// ```
-#[must_use]
-pub fn rayleigh_time(material: &Material, radius: f64) -> f64 {
-    let nu = material.poisson_ratio;
-    let shear = material.shear_modulus();
-    PI * radius * (material.density / shear).sqrt() / (0.1631 * nu + 0.8766)
-}
-
 /// Duration (s) of the elastic impact of two equal grains of `radius` (m) at the relative `speed` (m/s).
 ///
 /// $$ t_c = 2.868 \left( \frac{m^{\ast 2}}{R^\ast E^{\ast 2} v} \right)^{1/5}, \quad m^\ast = \tfrac{m}{2},\quad R^\ast = \tfrac{R}{2},\quad
@@ -148,7 +129,7 @@ impl Limits {
             settings,
             steps: settings.steps_per_contact.unwrap_or(steps),
             impact: least(&|group| impact_time(material(group), smallest(group), 1.0)),
-            rayleigh: least(&|group| rayleigh_time(material(group), smallest(group))),
+            rayleigh: least(&|group| material(group).rayleigh_time(smallest(group))),
             smallest: least(&smallest),
             flattening: -least(&|group| -flattening(material(group), 1.0, 1.0)),
         }

@@ -1,7 +1,6 @@
 //! Portable form of a law: what every dialect is written from, whatever its language.
 
 use super::reference::{self, Reference};
-use crate::bed::stages::time_step::rayleigh_time;
 use crate::contact::{LawVisitor, NormalLaw};
 use crate::document::Document;
 use crate::law::file::plain;
@@ -175,14 +174,14 @@ fn suggested_time_step(law: &FittedLaw, file: &LawFile) -> f64 {
     let stiffness = law.visit(Stiffest(file.valid.displacement_over_radius_max));
     let half_oscillation = PI * (material.sphere_mass(1.0) / stiffness).sqrt();
     let rayleigh = match &file.pair {
-        None => rayleigh_time(&material, 1.0),
+        None => material.rayleigh_time(1.0),
         // waves run through the bodies, not through what stands for both
         Some(pair) => {
             let [first, second] = pair.materials();
-            let own = rayleigh_time(&first, pair.particle_radius_m);
+            let own = first.rayleigh_time(pair.particle_radius_m);
             let other = pair
                 .target_radius_m
-                .map_or(f64::INFINITY, |r| rayleigh_time(&second, r));
+                .map_or(f64::INFINITY, |r| second.rayleigh_time(r));
             own.min(other) / file.provenance.radius_m
         }
     };
