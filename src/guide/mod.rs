@@ -20,6 +20,7 @@ chapters! {
     study, "study.md";
     discover, "discover.md";
     atlas, "atlas.md";
+    explorer, "explorer.md";
     inverse, "inverse.md";
     python, "python.md";
     accuracy, "accuracy.md";

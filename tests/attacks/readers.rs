@@ -3,6 +3,7 @@
 //! The list is held to the source: a file of `src` that reads and stands in no line of it fails the test at the end.
 
 mod checkpoints;
+mod explorer;
 mod grains;
 mod impact_files;
 mod inputs;
@@ -80,6 +81,22 @@ pub const READERS: &[Reader] = &[
         seeds: || shipped("models", "schema"),
         read: inputs::law,
         share: 10,
+    },
+    Reader {
+        name: "question of the explorer",
+        sources: &["explore/answer.rs"],
+        kind: Kind::Text,
+        seeds: explorer::questions,
+        read: explorer::question,
+        share: 3,
+    },
+    Reader {
+        name: "laws as WebAssembly",
+        sources: &["command/explore.rs"],
+        kind: Kind::Binary,
+        seeds: explorer::modules,
+        read: explorer::module,
+        share: 1,
     },
     Reader {
         name: "law of a pair",
@@ -318,7 +335,7 @@ const OTHERS: [(&str, &str); 9] = [
         "case/named.rs",
         "constants of materials, which are part of the program",
     ),
-    ("atlas/mod.rs", "the atlas, which is part of the program"),
+    ("atlas/law.rs", "the atlas, which is part of the program"),
     (
         "command/study_merge.rs",
         "a kept run that was just read and is copied as it is",
