@@ -57,18 +57,20 @@ where
 {
     let present = job.plan.scheme.reference == Reference::Present;
     match (job.plan.geometry, present) {
-        (Geometry::Axisymmetric, true) => vec![run_present(material, job.plan, job.speed)],
+        (Geometry::Axisymmetric, true) => {
+            vec![run_present(made_of(material), job.plan, job.speed)]
+        }
         (Geometry::Axisymmetric, false) => run_section(made_of(material), job),
         _ => run_solid(made_of(material), job),
     }
 }
 
 /// The deformed body as reference: the spline degree that the plan calls for.
-fn run_present<M: Constitutive<Axisymmetric>>(material: M, plan: &Plan, speed: f64) -> Record {
+fn run_present(matter: Box<dyn Matter<Axisymmetric>>, plan: &Plan, speed: f64) -> Record {
     match plan.laid().degree {
-        1 => Updated::<M, 1, 4>::new(plan, material, speed).finish(),
-        2 => Updated::<M, 2, 9>::new(plan, material, speed).finish(),
-        _ => Updated::<M, 3, 16>::new(plan, material, speed).finish(),
+        1 => Updated::<1, 4>::new(plan, matter, speed).finish(),
+        2 => Updated::<2, 9>::new(plan, matter, speed).finish(),
+        _ => Updated::<3, 16>::new(plan, matter, speed).finish(),
     }
 }
 

@@ -25,6 +25,13 @@ pub trait Matter<S: Space>: Send + Sync {
         clock: f64,
         vectors: Vectors,
     );
+    /// Response of one block after `dt` of its own time; its state moves on.
+    fn update(
+        &mut self,
+        kinematics: &Kinematics<S>,
+        dt: f64,
+        block: usize,
+    ) -> Response<S::Symmetric>;
     /// Elastic response of a block with its state frozen.
     fn trial(&self, kinematics: &Kinematics<S>, block: usize) -> Response<S::Symmetric>;
     /// Accumulated equivalent plastic strain of a block.
@@ -97,6 +104,16 @@ impl<S: Space, M: Constitutive<S>> Matter<S> for Made<M, M::State> {
                 clock,
             ),
         }
+    }
+
+    fn update(
+        &mut self,
+        kinematics: &Kinematics<S>,
+        dt: f64,
+        block: usize,
+    ) -> Response<S::Symmetric> {
+        self.material
+            .update(kinematics, dt, &mut self.states[block])
     }
 
     fn trial(&self, kinematics: &Kinematics<S>, block: usize) -> Response<S::Symmetric> {

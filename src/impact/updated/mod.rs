@@ -9,14 +9,15 @@ pub(crate) mod deformation;
 use self::deformation::{Deformation, gradient, pulled_back};
 use crate::curve::Status;
 use crate::impact::grid::section::Section;
-use crate::impact::kernel::Warmth;
+use crate::impact::kernel::{Matter, Warmth};
 use crate::impact::points::lattice;
+use crate::impact::points::section::SectionPoint;
 use crate::impact::run::OUTPUTS;
 use crate::impact::run::record::{Frame, Record, SectionView, Snapshot};
 use crate::impact::wall::CONTACT_TOLERANCE;
 use crate::impact::wall::meridian::{Contact, Wall};
 use crate::lanes::Lanes;
-use crate::material::stress::{Constitutive, Kinematics, Response};
+use crate::material::stress::{Kinematics, Moduli};
 use crate::plan::Plan;
 use crate::scheme::{Layout, TimeStep, Transfer};
 use crate::shape::Shape;
@@ -29,13 +30,14 @@ const USUAL: f64 = 50.0;
 
 /// A point on its way.
 #[derive(Debug, Clone, Copy)]
-struct Mover<T> {
+struct Mover {
+    /// Its block of the matter.
+    block: usize,
     start: [f64; 2],
     position: [f64; 2],
     velocity: [f64; 2],
     deformation: Deformation,
     volume: f64,
-    state: T,
     mean: f64,
     shear_norm: f64,
 }
@@ -48,13 +50,15 @@ struct Reach<const N: usize> {
 }
 
 /// An updated Lagrangian run.
-pub struct Updated<'a, M: Constitutive<Axisymmetric>, const P: usize, const N: usize> {
+pub struct Updated<'a, const P: usize, const N: usize> {
     plan: &'a Plan,
     speed: f64,
-    material: M,
+    /// A block a mover.
+    matter: Box<dyn Matter<Axisymmetric>>,
+    moduli: Moduli,
     section: Section<P>,
     offsets: [usize; N],
-    movers: Vec<Mover<M::State>>,
+    movers: Vec<Mover>,
     reaches: Vec<Reach<N>>,
     surface: Vec<usize>,
     sole: f64,
@@ -74,9 +78,9 @@ pub struct Updated<'a, M: Constitutive<Axisymmetric>, const P: usize, const N: u
     least_j: f64,
 }
 
-impl<'a, M: Constitutive<Axisymmetric>, const P: usize, const N: usize> Updated<'a, M, P, N> {
-    /// Lay out the points.
-    pub fn new(plan: &'a Plan, material: M, speed: f64) -> Self {
+impl<'a, const P: usize, const N: usize> Updated<'a, P, N> {
+    /// Lay out the points of `matter`, which has none yet.
+    pub fn new(plan: &'a Plan, mut matter: Box<dyn Matter<Axisymmetric>>, speed: f64) -> Self {
         let count = match plan.scheme.layout {
             Layout::Lattice(count) | Layout::Centred(count) => count,
             Layout::Fitted => USUAL,
@@ -86,25 +90,27 @@ impl<'a, M: Constitutive<Axisymmetric>, const P: usize, const N: usize> Updated<
         let points = lattice::points(count);
         let surface = lattice::outermost(count);
         let index = |r: f64, z: f64| points.iter().position(|p| p.r == r && p.z == z);
-        let mover = |p: &crate::impact::points::section::SectionPoint| Mover {
+        let mover = |(block, p): (usize, &SectionPoint)| Mover {
+            block,
             start: [p.r, p.z],
             position: [p.r, p.z],
             velocity: [0.0, -speed],
             deformation: [1.0, 0.0, 0.0, 1.0, 1.0],
             volume: 2.0 * PI * p.r * p.area,
-            state: material.virgin(),
             mean: 1.0,
             shear_norm: 0.0,
         };
+        points.iter().for_each(|_| matter.push());
+        let moduli = matter.moduli();
         let dt = match plan.scheme.time_step {
             TimeStep::Fixed(dt) => dt,
-            TimeStep::Stable => 0.1 * plan.grid.fine / material.moduli().dilatational_speed(1.0),
+            TimeStep::Stable => 0.1 * plan.grid.fine / moduli.dilatational_speed(1.0),
         };
         Updated {
             offsets: section.offsets(),
             surface: surface.iter().filter_map(|p| index(p.r, p.z)).collect(),
             sole: surface.first().map_or(0.0, |p| p.z),
-            movers: points.iter().map(mover).collect(),
+            movers: points.iter().enumerate().map(mover).collect(),
             reaches: Vec::new(),
             mass: vec![0.0; nodes],
             recip_mass: vec![[0.0; 2]; nodes],
@@ -113,7 +119,8 @@ impl<'a, M: Constitutive<Axisymmetric>, const P: usize, const N: usize> Updated<
             still: vec![[0.0; 2]; nodes],
             plan,
             speed,
-            material,
+            matter,
+            moduli,
             section,
             dt,
             time: 0.0,
@@ -171,7 +178,7 @@ impl<'a, M: Constitutive<Axisymmetric>, const P: usize, const N: usize> Updated<
 
     /// Nodes and weights of every point where it is now.
     fn find_nodes(&mut self) {
-        let reach = |p: &Mover<M::State>| {
+        let reach = |p: &Mover| {
             let (r, z) = (p.position[0], p.position[1]);
             let cell = self.section.cell_of(r, z);
             let point = self.section.point::<N>(cell, r, z, 1.0);
@@ -233,7 +240,7 @@ impl<'a, M: Constitutive<Axisymmetric>, const P: usize, const N: usize> Updated<
                 recip_j,
                 recip_cbrt_j: j.recip_cbrt(),
             };
-            let answer: Response<_> = (self.material).update(&kinematics, self.dt, &mut p.state);
+            let answer = self.matter.update(&kinematics, self.dt, p.block);
             self.least_j = if self.least_j <= j.array()[0] {
                 self.least_j
             } else {
@@ -242,7 +249,7 @@ impl<'a, M: Constitutive<Axisymmetric>, const P: usize, const N: usize> Updated<
             p.mean = answer.mean.array()[0];
             p.shear_norm = answer.deviator.squared_norm().array()[0].sqrt();
             self.plastic += answer.dissipation.array()[0] * p.volume;
-            let pressure = self.material.moduli().volumetric_stress(j.array()[0]);
+            let pressure = self.moduli.volumetric_stress(j.array()[0]);
             let tau = answer.deviator.shifted(j * pressure);
             let stress = Axisymmetric::first_piola(&tau, &f, recip_j, Lanes::splat(p.volume));
             for (gradient, offset) in reach.gradients.iter().zip(&self.offsets) {
@@ -315,22 +322,22 @@ impl<'a, M: Constitutive<Axisymmetric>, const P: usize, const N: usize> Updated<
     }
 
     /// Mass average over the points.
-    fn mean(&self, value: impl Fn(&Mover<M::State>) -> f64) -> f64 {
+    fn mean(&self, value: impl Fn(&Mover) -> f64) -> f64 {
         let mass: f64 = self.movers.iter().map(|p| p.volume).sum();
         self.movers.iter().map(|p| p.volume * value(p)).sum::<f64>() / mass
     }
 
     fn frame(&self) -> Frame {
-        let moduli = self.material.moduli();
+        let moduli = self.moduli;
         let mass: f64 = self.movers.iter().map(|p| p.volume).sum();
-        let elastic = |p: &Mover<M::State>| {
+        let elastic = |p: &Mover| {
             let f = &p.deformation;
             let j = (f[0] * f[3] - f[1] * f[2]) * f[4];
             1.5 * moduli.shear * (p.mean - 1.0) + moduli.volumetric_energy(j)
         };
         let travel = |z: f64| {
             // axis points (the first of a row) nearest to the height asked for
-            let near = |p: &&Mover<M::State>| (p.start[1] - z).abs() + p.start[0];
+            let near = |p: &&Mover| (p.start[1] - z).abs() + p.start[0];
             let nearest = self
                 .movers
                 .iter()
@@ -352,19 +359,16 @@ impl<'a, M: Constitutive<Axisymmetric>, const P: usize, const N: usize> Updated<
     }
 
     fn snapshot(&self) -> Snapshot {
-        let view = |p: &Mover<M::State>| {
+        let view = |p: &Mover| {
             let f = &p.deformation;
             let j = (f[0] * f[3] - f[1] * f[2]) * f[4];
             let size = (p.volume / (2.0 * PI * p.start[0])).sqrt();
             SectionView {
                 place: [p.position[0], p.position[1], size],
-                plastic_strain: M::plastic_strain(&p.state).array()[0],
+                plastic_strain: self.matter.plastic_strain(p.block).array()[0],
                 von_mises: 1.5f64.sqrt() * p.shear_norm / j,
-                pressure: -self.material.moduli().volumetric_stress(j),
-                temperature: self
-                    .material
-                    .temperature(&p.state)
-                    .map_or(0.0, |t| t.array()[0]),
+                pressure: -self.moduli.volumetric_stress(j),
+                temperature: (self.matter.temperature(p.block)).map_or(0.0, |t| t.array()[0]),
             }
         };
         let outline = |&c: &usize| {
@@ -379,11 +383,11 @@ impl<'a, M: Constitutive<Axisymmetric>, const P: usize, const N: usize> Updated<
 
     /// Temperatures of matter that knows them.
     fn warmth(&self) -> Option<Warmth> {
-        let temperature = |p: &Mover<M::State>| self.material.temperature(&p.state);
-        let hottest = |p: &Mover<M::State>| temperature(p).map_or(0.0, |t| t.array()[0]);
+        let temperature = |p: &Mover| self.matter.temperature(p.block);
+        let hottest = |p: &Mover| temperature(p).map_or(0.0, |t| t.array()[0]);
         self.movers.first().and_then(temperature)?;
         Some(Warmth {
-            share: self.material.heat_share(),
+            share: self.matter.heat_share(),
             hottest: self.movers.iter().map(hottest).fold(0.0, f64::max),
             mean: self.mean(hottest),
         })
@@ -402,7 +406,7 @@ impl<'a, M: Constitutive<Axisymmetric>, const P: usize, const N: usize> Updated<
             None if self.time > self.plan.longest_time => Status::NoRebound,
             None => Status::Ok,
         };
-        let size = std::mem::size_of::<Mover<M::State>>() + std::mem::size_of::<Reach<N>>();
+        let size = std::mem::size_of::<Mover>() + std::mem::size_of::<Reach<N>>();
         Record {
             contact_end: self.contact_end,
             exit_speed: self.mean(|p| p.velocity[1]),
@@ -416,12 +420,12 @@ impl<'a, M: Constitutive<Axisymmetric>, const P: usize, const N: usize> Updated<
             shock: 0.0,
             knocking: 0.0,
             has_poles: true,
-            plastic_strain: self.mean(|p| M::plastic_strain(&p.state).array()[0]),
+            plastic_strain: self.mean(|p| self.matter.plastic_strain(p.block).array()[0]),
             warmth: self.warmth(),
             points: self.movers.len(),
             steps: self.step,
             seconds_before: 0.0,
-            memory_bytes: size * self.movers.len() + self.mass.len() * 9 * 8,
+            memory_bytes: size * self.movers.len() + self.matter.bytes() + self.mass.len() * 9 * 8,
             status,
             rebound: self.snapshot(),
             film: Vec::new(),
