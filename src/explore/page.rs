@@ -19,7 +19,7 @@ pub const MARK: &str = concat!("explorer of impactlaw ", env!("CARGO_PKG_VERSION
 /// The commands that make the WebAssembly, and the file they make.
 pub const COMMANDS: [&str; 2] = [
     "rustup target add wasm32-unknown-unknown",
-    "cargo build --profile explorer -p impactlaw-explorer --target wasm32-unknown-unknown",
+    "cargo build --profile explorer --manifest-path src/explorer/Cargo.toml --target wasm32-unknown-unknown",
 ];
 /// The file that [`COMMANDS`] make, from the root of the sources.
 pub const MADE: &str = "target/wasm32-unknown-unknown/explorer/impactlaw_explorer.wasm";
