@@ -3,6 +3,7 @@
 use crate::document::Document;
 use crate::document::keys::{Kind, Value as _, key, keys, names, table};
 use crate::document::range;
+use crate::material::adhesion::Adhesion;
 use crate::material::flow::{FlowConstants, InText, WithFlow};
 use crate::material::{Flow, Material};
 use crate::scheme::preset::Method;
@@ -14,7 +15,7 @@ use scheme::SchemeTable;
 use serde::Deserialize;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
-use wall::WallTable;
+use wall::{Wall, WallTable};
 
 pub mod named;
 pub mod pair;
@@ -44,6 +45,8 @@ pub struct Case {
     pub angle: f64,
     /// Coulomb friction coefficient of the wall; 0 for a frictionless one.
     pub friction: f64,
+    /// Adhesion of the wall; none of one that does not adhere.
+    pub adhesion: Option<Adhesion>,
     /// Accuracy asked for, relative, on F*, delta* and e.
     pub tolerance: f64,
     /// Published method to run instead of the crate's own.
@@ -72,11 +75,11 @@ keys! {
         particle: table("the particle"),
         material: table("its material: constants, or the name of one of `models/constants/` (`material = \"ofhc-copper\"` above the tables)"),
         impact: table("speeds"),
-        wall: table("the wall: rigid with friction, or deformable").or("rigid and frictionless"),
+        wall: table("the wall: rigid with friction or adhesion, or deformable").or("rigid and frictionless"),
         accuracy: table("what the run is planned for"),
         scheme: table("a published method in place of the crate's own").or("the crate's own"),
         bed: table("a bed that `run` ends with").or("none"),
-        unusual: key("values that look like a slip of a unit and are meant all the same", "`particle.radius`, `impact.velocities`, `wall.radius`, or a number of `[material]` or `[wall.material]` as `material.density`", "['particle.radius']").or("none"),
+        unusual: key("values that look like a slip of a unit and are meant all the same", "`particle.radius`, `impact.velocities`, `wall.radius`, `wall.work_of_adhesion`, or a number of `[material]` or `[wall.material]` as `material.density`", "['particle.radius']").or("none"),
     }
 }
 
@@ -231,8 +234,11 @@ impl Case {
     /// The case, what stands in place of a rigid wall, and the values that are meant though they look like slips.
     fn with_wall(document: &Document) -> Result<(Self, Option<pair::Target>, Vec<String>)> {
         let file: CaseFile = document.parse()?;
-        let (friction, target) =
-            (file.wall).map_or(Ok((0.0, None)), |wall| wall.check(document))?;
+        let Wall {
+            friction,
+            adhesion,
+            target,
+        } = (file.wall).map_or(Ok(Wall::default()), |wall| wall.check(document))?;
         let written: Vec<f64> = file.impact.velocities.iter().map(|v| v.si()).collect();
         let case = Case {
             name: document.name(),
@@ -244,6 +250,7 @@ impl Case {
             velocities: file.impact.check(document)?,
             angle: file.impact.angle(document)?,
             friction,
+            adhesion,
             tolerance: document.within("accuracy.tolerance", file.accuracy.tolerance)?,
             method: file.scheme.map(|s| s.check(document)).transpose()?,
             bed: file.bed.map(|bed| bed.check(document)).transpose()?,
@@ -325,34 +332,11 @@ impl Case {
             velocities,
             angle: 0.0,
             friction: 0.0,
+            adhesion: None,
             tolerance,
             method: None,
             bed: None,
         })
-    }
-
-    /// That nothing is asked of a cylinder that is done for spheres alone.
-    fn check_cylinder(&self, document: &Document) -> Result<()> {
-        if self.shape == Shape::Sphere {
-            return Ok(());
-        }
-        let rejected = |key, what: &str| {
-            let allowed = format!(
-                "must be {what}: a cylinder flies along its axis against a frictionless wall"
-            );
-            Err(document.reject(key, allowed))
-        };
-        if self.angle > 0.0 {
-            return rejected("impact.angle", "0");
-        }
-        if self.friction > 0.0 {
-            return rejected("wall.friction", "0");
-        }
-        if self.bed.is_some() {
-            let allowed = "must be left out: beds are made of spheres";
-            return Err(document.reject("bed.scene", allowed));
-        }
-        Ok(())
     }
 
     /// The case with the speeds of `--velocity`, when any are given.

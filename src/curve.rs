@@ -12,7 +12,7 @@ pub mod files;
 pub mod film;
 mod tables;
 
-pub use tables::{Cylinder, Heating, SchemeFigures, Tangential, Target};
+pub use tables::{Adhering, Cylinder, Heating, SchemeFigures, Tangential, Target};
 
 /// One output interval of an impact. Field names are the CSV header (file contract).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -47,6 +47,11 @@ pub struct Sample {
     /// Plastic work so far, J.
     #[serde(rename = "plastic_J")]
     pub plastic_j: f64,
+    /// Energy of the surfaces, J: 0 out of the range of their attraction, $-w$ a unit of area where they meet; absent where nothing
+    /// adheres.
+    #[serde(rename = "surface_J")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub surface_j: Option<f64>,
 }
 
 /// How an impact ended.
@@ -55,6 +60,8 @@ pub struct Sample {
 pub enum Status {
     /// Rebounded; all figures are valid.
     Ok,
+    /// Held by the wall's adhesion: it turned back before it came free. e is 0, all other figures are valid.
+    Sticks,
     /// Still in contact when the duration ran out.
     NoRebound,
     /// Stopped early, with the reason.
@@ -102,7 +109,7 @@ pub struct Summary {
     /// Energy lost in shocks over incident kinetic energy; 0 but in impacts that flatten the body.
     #[serde(default, deserialize_with = "number_or_null")]
     pub shock_work_ratio: f64,
-    /// Largest imbalance of the energies over the incident kinetic energy.
+    /// Largest imbalance of the energies over the incident kinetic energy, and what the surfaces that adhere have given then.
     #[serde(deserialize_with = "number_or_null")]
     pub energy_closure: f64,
     /// Share of the body that lost its strength because it was squeezed too thin to be stepped through; 0 but in impacts
@@ -125,6 +132,9 @@ pub struct Summary {
     /// What happened along the wall; absent from normal impacts on a frictionless wall.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tangential: Option<Tangential>,
+    /// What the wall's adhesion did; absent where nothing adheres.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub adhesion: Option<Adhering>,
     /// The second body of an impact of two; absent on a rigid wall.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub target: Option<Target>,
@@ -388,20 +398,27 @@ impl Impact {
     ///
     /// # Errors
     /// [`Error::File`] and [`Error::Syntax`] as for the two files; [`Error::File`] when they are not as they were written;
-    /// [`Error::Refused`] for an impact of two deformable bodies, which [`Impact::read_any`] reads.
+    /// [`Error::Refused`] for an impact of two deformable bodies or with adhesion, which [`Impact::read_any`] reads.
     pub fn read(folder: &Path) -> Result<Self> {
         let impact = Self::read_any(folder)?;
-        match &impact.summary.target {
-            None => Ok(impact),
-            Some(target) => Err(Error::Refused {
-                what: folder.join("summary.json").display().to_string(),
-                found: format!("an impact on a deformable {}", target.shape),
-                allowed: "must be one on a rigid wall".to_owned(),
-            }),
-        }
+        let found = match &impact.summary {
+            Summary {
+                target: Some(target),
+                ..
+            } => format!("an impact on a deformable {}", target.shape),
+            Summary {
+                adhesion: Some(_), ..
+            } => "an impact on a wall that adheres".to_owned(),
+            _ => return Ok(impact),
+        };
+        Err(Error::Refused {
+            what: folder.join("summary.json").display().to_string(),
+            found,
+            allowed: "must be one on a rigid wall without adhesion".to_owned(),
+        })
     }
 
-    /// Read an impact on a rigid wall or of two deformable bodies.
+    /// Read an impact on any wall, or of two deformable bodies.
     ///
     /// # Errors
     /// As [`Impact::read`], but for the last.

@@ -13,7 +13,7 @@ use self::file::StudyFile;
 use self::list::{Lists, samples};
 use crate::Result;
 use crate::case::{Case, slips};
-use crate::curve::{Particle, Summary, Tangential};
+use crate::curve::{Adhering, Particle, Summary, Tangential};
 use crate::document::Document;
 use crate::document::keys::{Kind, Value as _};
 use crate::material::ReferenceUnits;
@@ -157,6 +157,13 @@ pub fn scaled(summary: &Summary, from: &ReferenceUnits, to: &Case) -> Summary {
         angular_velocity_rad_s: t.angular_velocity_rad_s / time,
         ..t
     });
+    let adhesion = summary.adhesion.map(|a| Adhering {
+        work_of_adhesion_j_m2: a.work_of_adhesion_j_m2 * force / length,
+        range_m: a.range_m * length,
+        sticking_velocity_m_s: a.sticking_velocity_m_s * velocity,
+        pull_off_force_n: a.pull_off_force_n * force,
+        ..a
+    });
     Summary {
         velocity_m_s: to
             .velocities
@@ -169,6 +176,7 @@ pub fn scaled(summary: &Summary, from: &ReferenceUnits, to: &Case) -> Summary {
         residual_displacement_m: summary.residual_displacement_m * length,
         contact_time_s: summary.contact_time_s * time,
         tangential,
+        adhesion,
         scheme: (summary.scheme.as_ref()).map(|scheme| scheme.scaled(time, force, length)),
         particle: Some(Particle::of(&to.material, to.radius)),
         ..summary.clone()

@@ -130,6 +130,9 @@ dimensions! {
     MassRate, "a mass rate", "5 g/s", si::MassRate, ["mg/s", "g/s", "kg/s", "kg/h", "t/h"], [];
     /// J.
     Energy, "an energy", "2 uJ", si::Energy, ["nJ", "uJ", "mJ", "J", "kJ"], [];
+    /// J/m2.
+    SurfaceEnergy, "an energy per area", "50 mJ/m2", si::RadiantExposure,
+        ["uJ/m2", "mJ/m2", "J/m2", "kJ/m2"], ["N/m" = 1.0, "mN/m" = 1e-3, "erg/cm2" = 1e-3, "dyn/cm" = 1e-3];
     /// s.
     Time, "a time", "20 ms", si::Time, ["ns", "us", "ms", "s", "min", "h", "d"], [];
     /// 1/s.

@@ -176,14 +176,31 @@ impl PairCase {
             let allowed = format!("{why} beside `wall.material`");
             Err(document.reject(key, allowed))
         };
-        let case = &self.particle;
-        if case.shape != Shape::Sphere {
+        // whoever adds to a case says here whether two bodies know it
+        let Case {
+            name: _,
+            path: _,
+            hash: _,
+            shape,
+            radius: _,
+            material: _,
+            velocities: _,
+            angle,
+            // keys of a rigid wall, which does not stand beside a deformable one
+            friction: _,
+            adhesion: _,
+            tolerance: _,
+            // refused as the case is read
+            method: _,
+            bed,
+        } = &self.particle;
+        if *shape != Shape::Sphere {
             return rejected("particle.shape", "must be \"sphere\"");
         }
-        if case.angle > 0.0 {
+        if *angle > 0.0 {
             return rejected("impact.angle", "must be 0");
         }
-        if case.bed.is_some() {
+        if bed.is_some() {
             return rejected(
                 "bed.scene",
                 "must be left out: name the pair's law in a scene of both materials (`[[pair]] law`) and run it by `impactlaw bed`",

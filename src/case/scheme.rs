@@ -142,7 +142,23 @@ impl Case {
     /// What of the case is not run under its preset: its key and what is allowed; nothing without a preset. `pair`: two deformable
     /// bodies are asked for.
     pub(crate) fn beyond_preset(&self, pair: bool) -> Option<(String, String)> {
-        let method = self.method?;
+        // whoever adds to a case says here whether presets know it
+        let Case {
+            name: _,
+            path: _,
+            hash: _,
+            shape,
+            radius: _,
+            material,
+            velocities: _,
+            angle,
+            friction,
+            adhesion,
+            tolerance: _,
+            method,
+            bed,
+        } = self;
+        let method = (*method)?;
         let refused = |key: &str, must: &str| {
             let allowed = format!(
                 "{must} beside `scheme.preset`: preset \"{}\" is run for normal impacts of spheres on a rigid, frictionless wall",
@@ -150,23 +166,25 @@ impl Case {
             );
             Some((key.to_owned(), allowed))
         };
-        if self.shape != Shape::Sphere {
+        if *shape != Shape::Sphere {
             return refused("particle.shape", "must be \"sphere\"");
         }
         if pair {
             return refused("wall.material", "must be left out");
         }
-        if self.angle > 0.0 {
+        if *angle > 0.0 {
             return refused("impact.angle", "must be 0");
         }
-        if self.friction > 0.0 {
+        if *friction > 0.0 {
             return refused("wall.friction", "must be 0");
         }
-        if self.bed.is_some() {
+        if adhesion.is_some() {
+            return refused("wall.work_of_adhesion", "must be left out");
+        }
+        if bed.is_some() {
             return refused("bed.scene", "must be left out");
         }
-        let constants = self
-            .material
+        let constants = material
             .flow
             .as_ref()
             .map_or_else(Vec::new, Flow::constants);

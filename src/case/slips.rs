@@ -16,6 +16,7 @@ const RADIUS: &str = "particle.radius";
 const DENSITY: &str = "material.density";
 const MODULUS: &str = "material.young_modulus";
 const POISSON: &str = "material.poisson_ratio";
+const ADHESION: &str = "wall.work_of_adhesion";
 const VELOCITIES: &str = "impact.velocities";
 
 /// Radius, m: from some dozens of atoms to a boulder.
@@ -39,6 +40,9 @@ const LEAST_STRESS: f64 = 1e-3;
 const HEATS: RangeInclusive<f64> = 50.0..=1e4;
 /// Smallest speed over $\sqrt{E/\rho}$: a flattening of 1e-8 R, some digits above the rounding of positions.
 const LEAST_MACH: f64 = 1e-10;
+/// Work of adhesion, J/m2: from a hundredth of what repels least in a liquid to four times that of the strongest metals. Numbers meant in mJ/m2 lie
+/// above.
+const WORKS: RangeInclusive<f64> = 1e-6..=20.0;
 /// Largest acceleration of gravity, m/s2.
 const LARGEST_GRAVITY: f64 = 5e3;
 /// Largest $\rho V^2/Y$: a tenth of it flattens the body to a fiftieth of its height.
@@ -75,6 +79,10 @@ fn accepted() -> Vec<(String, String)> {
         ),
         ("`material.specific_heat`", between(&HEATS, "J/(kg K)")),
         (
+            "`wall.work_of_adhesion`",
+            format!("0, or {}", between(&WORKS, "J/m²")),
+        ),
+        (
             "`impact.velocities`",
             format!(
                 "{LEAST_MACH:e} c to c, c = √(E/ρ); ρV²/Y up to {LARGEST_SEVERITY}; elastic: δ* up to R"
@@ -89,7 +97,7 @@ fn accepted() -> Vec<(String, String)> {
 fn keys() -> Vec<String> {
     let flow = Flow::all_constants();
     let flow = flow.iter().map(key_of);
-    [RADIUS, DENSITY, MODULUS, POISSON, VELOCITIES]
+    [RADIUS, DENSITY, MODULUS, POISSON, ADHESION, VELOCITIES]
         .map(str::to_owned)
         .into_iter()
         .chain(flow)
@@ -197,6 +205,10 @@ pub(crate) fn reasons(case: &Case, velocities: &[f64]) -> Vec<(String, Option<us
         let slip = flow_slip(&constant, value, young_modulus, strength);
         found.push((key_of(&constant), None, slip));
     }
+    if let Some(adhesion) = case.adhesion {
+        let slip = outside(adhesion.work, &WORKS, "J/m²");
+        found.push((ADHESION.to_owned(), None, slip));
+    }
     for (i, velocity) in velocities.iter().enumerate() {
         let slip = velocity_slip(&case.material, *velocity);
         found.push((VELOCITIES.to_owned(), Some(i), slip));
@@ -244,7 +256,9 @@ pub(super) fn check_target(
         key => format!("wall.{key}"),
     };
     let own = keys();
-    let of_wall = own.iter().filter(|key| *key != VELOCITIES);
+    let of_wall = own
+        .iter()
+        .filter(|key| ![VELOCITIES, ADHESION].contains(&&key[..]));
     let of_wall = of_wall.map(|key| in_wall(key));
     let all: Vec<String> = own.iter().cloned().chain(of_wall).collect();
     check_among(document, unusual, &all)?;

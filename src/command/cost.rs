@@ -387,6 +387,7 @@ fn unknown_ladder(asked: &[String], rungs: &[Rung]) -> Error {
 fn check(impact: &Impact) -> Result<()> {
     let reason = match &impact.summary.status {
         Status::Ok => return Ok(()),
+        Status::Sticks => "the finest run stays on the wall".to_owned(),
         Status::NoRebound => "the finest run did not rebound".to_owned(),
         Status::Failed(reason) => format!("the finest run failed: {reason}"),
     };

@@ -142,6 +142,7 @@ pub(super) fn findings<'a>(all: impl Iterator<Item = &'a Summary>, out: &Path) -
         let [v, e, f, d, t] = figures;
         let mark = match &summary.status {
             Status::Ok => "",
+            Status::Sticks => "  sticks",
             Status::NoRebound => "  no rebound",
             Status::Failed(_) => "  failed",
         };
@@ -428,7 +429,7 @@ pub fn check(done: &Simulated) -> Result<()> {
 
 fn check_summary(summary: &Summary) -> Result<()> {
     let reason = match &summary.status {
-        Status::Ok => return Ok(()),
+        Status::Ok | Status::Sticks => return Ok(()),
         Status::NoRebound => "no rebound before the longest time of the plan".to_owned(),
         Status::Failed(reason) => reason.clone(),
     };

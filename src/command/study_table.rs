@@ -234,6 +234,7 @@ impl Refined {
             refined_wall_s: fine.wall_s,
             refined_status: match &fine.status {
                 Status::Ok => "ok".to_owned(),
+                Status::Sticks => "sticks".to_owned(),
                 Status::NoRebound => "no rebound".to_owned(),
                 Status::Failed(reason) => reason.clone(),
             },

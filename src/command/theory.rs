@@ -6,6 +6,7 @@ use crate::contact::rebound::Rebound;
 use crate::contact::{LawVisitor, NormalLaw};
 use crate::law::AnyLaw;
 use crate::material::constant::Constant;
+use crate::theory::adhesive::{ADHESIVE, AdhesiveModel, StickySphere};
 use crate::theory::published::{Evidence, Publication, left_out};
 use crate::theory::{FORMULAS, Theory};
 use crate::unit::{self, Length, Velocity};
@@ -50,7 +51,8 @@ pub struct TheoryArgs {
     /// Case file: radius and material.
     #[arg(required_unless_present = "list")]
     pub case: Option<PathBuf>,
-    /// Displacements with units, e.g. `"1 um"`; prints `displacement_m,force_N,contact_radius_m`.
+    /// Displacements with units, e.g. `"1 um"`; prints `displacement_m,force_N,contact_radius_m`. Adhesive models pull at
+    /// negative ones, too: `--displacements="-1 nm"`.
     #[arg(long, num_args = 1.., value_delimiter = ',')]
     pub displacements: Vec<String>,
     /// Largest displacement reached before: the displacements lie on the unloading branch.
@@ -80,6 +82,10 @@ impl Command for TheoryArgs {
         match (&self.model, &self.case) {
             (Some(model), Some(case)) => {
                 let case = Case::read(case)?;
+                if let Some(model) = adhesive(model) {
+                    super::print(&adhesive_table(self, &model, &case)?)?;
+                    return Ok(Verdict::Met);
+                }
                 case.of_a_normal_impact("a theory")?;
                 let publication = match formula(model) {
                     Some(formula) => formula,
@@ -119,7 +125,99 @@ pub fn list() -> String {
         let _ = writeln!(text, "{:<22}{}", "", model.summary);
         let _ = writeln!(text, "{:<22}{needs}; gives {gives}{closed}", "");
     }
+    for model in ADHESIVE {
+        let needs = match (model.needs_range, model.needs_yield) {
+            (true, _) => "needs a work of adhesion with its range",
+            (_, true) => "needs a work of adhesion, a yield strength",
+            _ => "needs a work of adhesion",
+        };
+        let gives = match (model.force, model.restitution) {
+            (Some(_), Some(_)) => "force, restitution in closed form",
+            (Some(_), None) => "force",
+            (None, _) => "no force, restitution in closed form",
+        };
+        let _ = writeln!(text, "{:<22}{}", model.name, model.papers.join(", "));
+        let _ = writeln!(text, "{:<22}{}", "", model.summary);
+        let _ = writeln!(text, "{:<22}{needs}; gives {gives}", "");
+    }
     text
+}
+
+/// Adhesive model of this name.
+fn adhesive(name: &str) -> Option<AdhesiveModel> {
+    ADHESIVE.into_iter().find(|model| model.name == name)
+}
+
+/// The CSV text of an adhesive model: of a contact that is pulled off, or of impacts.
+fn adhesive_table(args: &TheoryArgs, model: &AdhesiveModel, case: &Case) -> Result<String> {
+    let adhesion = case.of_a_normal_adhesive_impact(model.name)?;
+    let missing = |key: &str| Error::Refused {
+        what: format!("{}: `{key}`", case.path.display()),
+        found: "none".to_owned(),
+        allowed: format!("must be given: {} needs it", model.name),
+    };
+    if model.needs_range && adhesion.range.is_none() {
+        return Err(missing("wall.adhesion_range"));
+    }
+    if model.needs_yield && case.material.flow.is_none() {
+        return Err(missing("material.yield_strength"));
+    }
+    if model.evidence == Evidence::Unverified {
+        tracing::warn!("{}: its equations are unverified", model.name);
+    }
+    let sphere = StickySphere {
+        material: case.material,
+        radius: case.radius,
+        adhesion,
+    };
+    let refused = |argument: &str, found: &str, allowed: &str| {
+        Err(Error::Argument {
+            argument: argument.to_owned(),
+            found: found.to_owned(),
+            allowed: allowed.to_owned(),
+        })
+    };
+    if args.max_displacement.is_some() {
+        let allowed = "must be left out: an elastic contact has one branch, the one on which it is pulled off";
+        return refused("--max-displacement", model.name, allowed);
+    }
+    if !args.displacements.is_empty() {
+        let Some(force) = model.force else {
+            let allowed = "this theory gives restitution only; use --velocities";
+            return refused("--displacements", model.name, allowed);
+        };
+        let all = quantities::<Length>("--displacements", &args.displacements, false)?;
+        let row = |displacement_m: f64| {
+            let found = force(&sphere, displacement_m);
+            ForceRow {
+                displacement_m,
+                force_n: found.map_or(0.0, |[force, _]| force),
+                contact_radius_m: found.map(|[_, radius]| radius),
+            }
+        };
+        let rows: Vec<ForceRow> = all.into_iter().map(row).collect();
+        return rows_text(args.json, &rows);
+    }
+    let Some(restitution) = model.restitution else {
+        let allowed = "this theory gives a force only; use --displacements";
+        return refused("--velocities", model.name, allowed);
+    };
+    let all = quantities::<Velocity>("--velocities", &args.velocities, true)?;
+    if all.is_empty() {
+        let allowed = "give one, e.g. --displacements \"1 um\" or --velocities \"10 m/s\"";
+        return refused(
+            "theory",
+            "neither --displacements nor --velocities",
+            allowed,
+        );
+    }
+    let row = |velocity_m_s: f64| RestitutionRow {
+        velocity_m_s,
+        restitution: None,
+        restitution_closed_form: Some(restitution(&sphere, velocity_m_s)),
+    };
+    let rows: Vec<RestitutionRow> = all.into_iter().map(row).collect();
+    rows_text(args.json, &rows)
 }
 
 /// The CSV text for a case that has been read.

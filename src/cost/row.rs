@@ -184,6 +184,7 @@ impl Row {
 fn status(impact: &Impact) -> String {
     match &impact.summary.status {
         Status::Ok => "ok".to_owned(),
+        Status::Sticks => "sticks".to_owned(),
         Status::NoRebound => "no_rebound".to_owned(),
         Status::Failed(reason) => format!("failed: {reason}"),
     }

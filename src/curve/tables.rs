@@ -41,6 +41,31 @@ pub struct Heating {
     pub mean_temperature_k: f64,
 }
 
+/// What the wall's adhesion did (table `adhesion` of `summary.json`).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Adhering {
+    /// Work of adhesion w, J/m2.
+    #[serde(rename = "work_of_adhesion_J_m2")]
+    pub work_of_adhesion_j_m2: f64,
+    /// Gap up to which the surfaces attract each other, m.
+    pub range_m: f64,
+    /// Maugis' number of the elastic sphere: JKR's limit where it is large, DMT's where it is small.
+    pub maugis_number: f64,
+    /// Speed below which the sphere, were it elastic, would stay on the wall in JKR's limit, m/s.
+    pub sticking_velocity_m_s: f64,
+    /// Largest pull of the wall after the largest displacement, averaged as the largest force is, N.
+    #[serde(rename = "pull_off_force_N")]
+    #[serde(deserialize_with = "number_or_null")]
+    pub pull_off_force_n: f64,
+    /// Largest energy that the surfaces gave as they met, over the incident kinetic energy.
+    #[serde(deserialize_with = "number_or_null")]
+    pub surface_energy_ratio: f64,
+    /// Energy lost as surface points met the wall, over the incident kinetic energy: a part of what snapping into contact loses.
+    #[serde(deserialize_with = "number_or_null")]
+    pub contact_loss_ratio: f64,
+}
+
 /// The second body of an impact of two (table `target` of `summary.json`): a sphere, a plate or a half-space.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

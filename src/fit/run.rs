@@ -123,6 +123,7 @@ impl Run {
         let refuse = |why: &str| Err(why.to_owned());
         match &s.status {
             Status::Ok => {}
+            Status::Sticks => return refuse("stays on the wall"),
             Status::NoRebound => return refuse("did not rebound in its time"),
             Status::Failed(why) => return Err(format!("failed: {why}")),
         }

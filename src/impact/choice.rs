@@ -113,6 +113,10 @@ fn run_section(matter: Box<dyn Matter<Axisymmetric>>, job: &Job) -> Vec<Record> 
     let &Job { plan, speed, .. } = job;
     let (grid, layout) = (&plan.laid(), plan.scheme.layout);
     let tolerance = CONTACT_TOLERANCE * speed;
+    if let Some(law) = plan.adhesion {
+        let model = model::build_attracted::<2, 9, _>(grid, layout, matter, tolerance, law);
+        return Run::new(model, (), plan, speed).finish(job.keeper());
+    }
     match grid.degree {
         1 => run_transfer(model::build::<1, 4>(grid, layout, matter, tolerance), job),
         2 => run_transfer(model::build::<2, 9>(grid, layout, matter, tolerance), job),

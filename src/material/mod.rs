@@ -1,5 +1,6 @@
 //! Material of a particle: elastic constants, flow stress, and the yield quantities that follow from them.
 
+pub mod adhesion;
 pub mod constant;
 pub mod effective;
 pub mod flow;

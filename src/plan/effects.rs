@@ -1,5 +1,6 @@
 //! Effects: which of them a scene calls for, why, and what those on the flow stress change.
 
+use super::adhesion::Felt;
 use super::{Effect, Geometry, LARGE_FROM, bar, geometry, severity};
 use crate::case::Case;
 use crate::material::flow::{Past, YIELD_STRENGTH};
@@ -16,9 +17,18 @@ pub(super) fn of(case: &Case, velocity: f64) -> (Vec<Effect>, bool) {
             .map(|first| first.velocity),
         Shape::Cylinder { .. } => bar::yield_speed(material),
     };
+    let adhesion = Felt::of(case, velocity);
+    let adheres = adhesion.as_ref().is_some_and(|felt| felt.is_on(case));
     let slow = |least: f64| velocity <= least && case.shape == Shape::Sphere;
     let (plastic, why) = match yields_at {
         None => (false, "the material has no yield strength".to_owned()),
+        Some(least) if slow(least) && adheres => (
+            true,
+            format!(
+                "V <= V_y = {}, but the wall's attraction may make it yield",
+                engineering(least, "m/s", 3)
+            ),
+        ),
         Some(least) if slow(least) => (
             false,
             format!("V <= V_y = {}", engineering(least, "m/s", 3)),
@@ -77,6 +87,14 @@ pub(super) fn of(case: &Case, velocity: f64) -> (Vec<Effect>, bool) {
                 significant(severity, 3)
             ),
         },
+        adhesion.map_or_else(
+            || Effect {
+                name: "adhesion",
+                on: false,
+                reason: "the wall does not adhere".to_owned(),
+            },
+            |felt| felt.effect(case),
+        ),
         Effect {
             name: "gravity",
             on: false,

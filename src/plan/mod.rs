@@ -5,14 +5,17 @@
 
 use crate::case::Case;
 use crate::material::Material;
+use crate::material::adhesion::Dugdale;
 use crate::material::stress::Moduli;
 use crate::scheme::Scheme;
 use crate::scheme::preset::Method;
 use crate::shape::Shape;
 use crate::unit::significant;
 use crate::{Error, Result};
+use adhesion::Felt;
 use std::f64::consts::PI;
 
+mod adhesion;
 mod bar;
 mod effects;
 mod grid;
@@ -70,6 +73,8 @@ pub struct Plan {
     pub angle: f64,
     /// Friction coefficient of the wall.
     pub friction: f64,
+    /// Attraction by the wall, where it is felt: lengths in R, tractions in E.
+    pub adhesion: Option<Dugdale>,
     /// Part of the sphere that is simulated.
     pub geometry: Geometry,
     /// Expected size of the impact.
@@ -114,6 +119,7 @@ impl Plan {
             run_velocity: velocity,
             angle: case.angle,
             friction: case.friction,
+            adhesion: None,
             geometry: geometry(case),
             estimate,
             effects: Vec::new(),
@@ -214,6 +220,12 @@ pub fn plans(case: &Case) -> Result<Vec<Plan>> {
         if let Some([found, allowed]) = method::refusal(case, velocity) {
             return refuse("scheme.preset", found, allowed);
         }
+        let adhesion = Felt::of(case, velocity * case.angle.cos());
+        if let Some([key, found, allowed]) =
+            adhesion.and_then(|felt| felt.refusal(case, velocity * case.angle.cos()))
+        {
+            return refuse(&key, found, allowed);
+        }
         let plan = plan(case, velocity);
         if let Some([found, allowed]) = oversize(&plan) {
             return refuse("impact.velocities", found, allowed);
@@ -259,6 +271,7 @@ fn too_fine(case: &Case, velocity: f64) -> Option<String> {
 pub fn plan(case: &Case, velocity: f64) -> Plan {
     let material = &case.material;
     let geometry = geometry(case);
+    let adhesion = Felt::of(case, velocity * case.angle.cos()).filter(|felt| felt.is_on(case));
     let (mut effects, plastic) = effects::of(case, velocity * case.angle.cos());
     // what does not yield is planned as what cannot
     let elastic = Material {
@@ -269,7 +282,7 @@ pub fn plan(case: &Case, velocity: f64) -> Plan {
     let asked = velocity;
     let shape = case.shape.over(case.radius);
     let slender = shape != Shape::Sphere;
-    let as_asked = plastic || slender || geometry != Geometry::Axisymmetric;
+    let as_asked = plastic || slender || adhesion.is_some() || geometry != Geometry::Axisymmetric;
     let velocity = if as_asked || case.method.is_some() {
         asked
     } else {
@@ -277,15 +290,19 @@ pub fn plan(case: &Case, velocity: f64) -> Plan {
         similar::run_speed(asked, expected, case.tolerance)
     };
     let normal = velocity * case.angle.cos();
-    let estimate = match shape {
-        Shape::Sphere => estimate(acting, normal),
-        Shape::Cylinder { length } => bar::estimate(acting, normal, length, case.radius),
+    let estimate = match (shape, &adhesion) {
+        (Shape::Sphere, None) => estimate(acting, normal),
+        (Shape::Sphere, Some(felt)) => felt.estimate(acting, normal),
+        (Shape::Cylinder { length }, _) => bar::estimate(acting, normal, length, case.radius),
     };
     let mut grid = match (shape, geometry) {
         (Shape::Cylinder { .. }, _) => bar::grid(shape, case.tolerance),
         (_, Geometry::Axisymmetric) => grid(&estimate, case, velocity),
         _ => solid_grid(&estimate, case, normal),
     };
+    if let Some(felt) = &adhesion {
+        grid = felt.refine(grid, &estimate);
+    }
     let severity = severity(acting, normal);
     if geometry != Geometry::Axisymmetric && plastic {
         grid.remedies = Remedies::SOLID;
@@ -306,6 +323,7 @@ pub fn plan(case: &Case, velocity: f64) -> Plan {
     effects.push(similar::similar_impact(asked, velocity, &estimate));
     let plan = Plan {
         run_velocity: velocity,
+        adhesion: adhesion.map(|felt| felt.law),
         effects,
         plastic,
         ..Plan::of(case, asked, estimate, grid)

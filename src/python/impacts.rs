@@ -149,11 +149,12 @@ impl Impact {
         self.0.impact.summary.velocity_m_s
     }
 
-    /// `ok`, `no_rebound`, or why it failed.
+    /// `ok`, `sticks`, `no_rebound`, or why it failed.
     #[getter]
     fn status(&self) -> &str {
         match &self.0.impact.summary.status {
             Status::Ok => "ok",
+            Status::Sticks => "sticks",
             Status::NoRebound => "no_rebound",
             Status::Failed(reason) => reason,
         }

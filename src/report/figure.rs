@@ -234,6 +234,7 @@ mod tests {
             force_n: x,
             tangential_force_n: None,
             target_displacement_m: None,
+            surface_j: None,
             contact_radius_m: 0.0,
             kinetic_j: 0.0,
             elastic_j: 0.0,

@@ -301,6 +301,7 @@ impl RunPage<'_> {
         for (row, summary) in table.rows.iter_mut().zip(&self.impacts) {
             row.push(match &summary.status {
                 Status::Ok => "ok".to_owned(),
+                Status::Sticks => "sticks".to_owned(),
                 Status::NoRebound => "no rebound".to_owned(),
                 Status::Failed(reason) => format!("failed: {reason}"),
             });

@@ -2,6 +2,7 @@
 //! a study's results.
 
 use crate::case::Case;
+use crate::material::adhesion::Adhesion;
 use crate::material::constant::{Absent, Dimension};
 use crate::material::flow::YIELD_STRENGTH;
 use crate::material::{Flow, Material, ReferenceUnits, YIELD_PRESSURE_RATIO};
@@ -26,6 +27,8 @@ pub struct Groups {
     poisson_ratio: f64,
     angle: f64,
     friction: f64,
+    /// $w/(E R)$, and the range over R where the case says it.
+    adhesion: Option<(f64, Option<f64>)>,
     tolerance: f64,
     /// Published method, its step without seconds.
     method: Option<Method>,
@@ -53,6 +56,7 @@ impl Groups {
             velocities,
             angle,
             friction,
+            adhesion,
             tolerance,
             method,
         } = case;
@@ -73,6 +77,10 @@ impl Groups {
             poisson_ratio: *poisson_ratio,
             angle: nine_digits(*angle),
             friction: *friction,
+            adhesion: adhesion.map(|Adhesion { work, range }| {
+                let range = range.map(|range| nine_digits(range / units.length));
+                (nine_digits(work / (units.stress * units.length)), range)
+            }),
             tolerance: *tolerance,
             method: method.map(|method| {
                 let velocity = velocities.first().copied().unwrap_or_default();
@@ -94,9 +102,14 @@ impl Groups {
             poisson_ratio,
             angle,
             friction,
+            adhesion,
             tolerance,
             method,
         } = self;
+        let adhesion = adhesion.map_or_else(String::new, |(work, range)| {
+            let range = range.map_or_else(String::new, |range| format!("_range{range:.8e}"));
+            format!("_wER{work:.8e}{range}")
+        });
         let flow = flow.map_or("elastic".to_owned(), |flow| {
             let constants = flow.constants().into_iter();
             let texts =
@@ -120,7 +133,7 @@ impl Groups {
             )
         });
         format!(
-            "{flow}_rhoV2E{speed:.8e}_nu{poisson_ratio:e}_angle{angle:.8e}_mu{friction:e}_tol{tolerance:e}{method}"
+            "{flow}_rhoV2E{speed:.8e}_nu{poisson_ratio:e}_angle{angle:.8e}_mu{friction:e}{adhesion}_tol{tolerance:e}{method}"
         )
     }
 
@@ -134,6 +147,7 @@ impl Groups {
             poisson_ratio,
             angle,
             friction,
+            adhesion,
             tolerance,
             method,
         } = self;
@@ -153,6 +167,7 @@ impl Groups {
             velocities: vec![speed.sqrt()],
             angle: *angle,
             friction: *friction,
+            adhesion: adhesion.map(|(work, range)| Adhesion { work, range }),
             tolerance: *tolerance,
             method: *method,
             bed: None,
@@ -168,6 +183,7 @@ impl Groups {
             poisson_ratio: 0.3,
             angle: 0.0,
             friction: 0.0,
+            adhesion: None,
             tolerance: 0.1,
             method: None,
         };

@@ -202,6 +202,7 @@ impl Lists<'_> {
             velocities: vec![self.velocity(chosen, &at, &material)?],
             angle: get(Variable::Angle).unwrap_or(0.0),
             friction: get(Variable::Friction).unwrap_or(0.0),
+            adhesion: None,
             tolerance: required(Variable::Tolerance)?,
             method: self.method,
             bed: None,

@@ -4,6 +4,7 @@
 //! this file makes everything else of it: [`Theory`] with its names, its order and the one match from a name to a law, and
 //! [`FORMULAS`]. A new theory is a new file, its `mod` line and one line of that list.
 
+pub mod adhesive;
 pub mod envelope;
 pub mod ghaednia;
 pub mod hertz;

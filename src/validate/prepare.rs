@@ -141,15 +141,34 @@ fn namesakes(cases: &[Case], name: &str) -> usize {
 
 /// That a case is a normal impact at one speed on a frictionless wall: nothing else is compared.
 fn plain(case: &Case) -> Result<()> {
-    let found = match case {
-        Case { velocities, .. } if velocities.len() != 1 => format!("{} speeds", velocities.len()),
-        Case { angle, .. } if *angle > 0.0 => "an oblique impact".to_owned(),
-        Case { friction, .. } if *friction > 0.0 => "friction".to_owned(),
-        Case {
-            method: Some(method),
-            ..
-        } => format!("scheme preset {method}"),
-        _ => return Ok(()),
+    // whoever adds to a case says here whether it is compared
+    let Case {
+        name: _,
+        path: _,
+        hash: _,
+        shape: _,
+        radius: _,
+        material: _,
+        velocities,
+        angle,
+        friction,
+        adhesion,
+        tolerance: _,
+        method,
+        bed: _,
+    } = case;
+    let found = if velocities.len() != 1 {
+        format!("{} speeds", velocities.len())
+    } else if *angle > 0.0 {
+        "an oblique impact".to_owned()
+    } else if *friction > 0.0 {
+        "friction".to_owned()
+    } else if adhesion.is_some() {
+        "adhesion".to_owned()
+    } else if let Some(method) = method {
+        format!("scheme preset {method}")
+    } else {
+        return Ok(());
     };
     Err(Error::Refused {
         what: format!("{}: case `{}`", case.path.display(), case.name),

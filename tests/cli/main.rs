@@ -1,5 +1,6 @@
 //! The program from outside: what each verb writes, what it refuses, and that interrupted runs go on.
 
+mod adhesion;
 mod atlas;
 mod bed_resume;
 mod bed_shipped;

@@ -9,7 +9,7 @@ use impactlaw::command::help::{self, markdown};
 use impactlaw::command::schema::FILES;
 use impactlaw::cost::accuracy::Line;
 use impactlaw::curve::files::FromFiles;
-use impactlaw::curve::{Cylinder, Heating, SchemeFigures, Summary, Tangential};
+use impactlaw::curve::{Adhering, Cylinder, Heating, SchemeFigures, Summary, Tangential};
 use impactlaw::discover::file::EquationsFile;
 use impactlaw::document::Document;
 use impactlaw::document::reference::{Section as Place, sections, sentence};
@@ -241,7 +241,8 @@ pub fn columns() -> BTreeMap<String, BTreeSet<String>> {
 }
 
 /// Keys of an impact's summary that a normal impact without incident lacks.
-const MAY_BE_ABSENT: [&str; 6] = [
+const MAY_BE_ABSENT: [&str; 7] = [
+    "adhesion",
     "cylinder",
     "heating",
     "scheme",
@@ -250,7 +251,8 @@ const MAY_BE_ABSENT: [&str; 6] = [
     "warnings",
 ];
 /// Keys of an impact's summary that are no figures, and not in `results.csv`; in the order of the alphabet.
-const NO_FIGURES: [&str; 9] = [
+const NO_FIGURES: [&str; 10] = [
+    "adhesion",
     "cylinder",
     "heating",
     "particle",
@@ -325,9 +327,9 @@ pub fn assert_described(folder: &Path) -> BTreeSet<String> {
                 keys(&text).into_iter().chain(absent).collect()
             }
             "summary.json of a bed" => keys(&text),
-            // friction alone has a force along the wall, a deformable wall alone a dent
+            // friction alone has a force along the wall, a deformable wall alone a dent, adhesion alone an energy of the surfaces
             "curve.csv" => {
-                let absent = ["tangential_force_N", "target_displacement_m"];
+                let absent = ["surface_J", "tangential_force_N", "target_displacement_m"];
                 let absent = absent.map(str::to_owned);
                 header(&text).into_iter().chain(absent).collect()
             }
@@ -449,8 +451,17 @@ fn every_column_of_every_file_has_its_line_and_no_other() {
         max_temperature_k: 400.0,
         mean_temperature_k: 300.0,
     });
+    summary.adhesion = Some(Adhering {
+        work_of_adhesion_j_m2: 1.0,
+        range_m: 1.0,
+        maugis_number: 1.0,
+        sticking_velocity_m_s: 1.0,
+        pull_off_force_n: 1.0,
+        surface_energy_ratio: 1.0,
+        contact_loss_ratio: 1.0,
+    });
     let value = serde_json::to_value(&summary).unwrap();
-    for part in ["cylinder", "heating", "tangential"] {
+    for part in ["adhesion", "cylinder", "heating", "tangential"] {
         let described = &reference[&format!("{part} of summary.json")];
         assert_eq!(*described, keys(&value[part].to_string()), "{part}");
     }
@@ -485,6 +496,7 @@ fn every_column_of_every_file_has_its_line_and_no_other() {
         // tests/impact/cost_thesis.rs makes its rows
         "chapter_3.csv",
         "cylinder of summary.json",
+        "adhesion of summary.json",
         "heating of summary.json",
         "particle of summary.json",
         "tangential of summary.json",

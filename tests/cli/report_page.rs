@@ -43,6 +43,7 @@ fn summary(velocity_m_s: f64, status: Status) -> Summary {
         points: 20_000,
         steps: 123_456,
         wall_s: 2.0,
+        adhesion: None,
         cylinder: None,
         target: None,
         scheme: None,

@@ -1,5 +1,6 @@
 //! Simulated impacts: closed forms, schemes and geometries beside each other, and what accuracy costs.
 
+mod adhesion;
 mod cost_thesis;
 mod elastic;
 mod flow;

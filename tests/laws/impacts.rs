@@ -42,6 +42,7 @@ pub fn case(material: Material, velocities: &[f64]) -> Case {
         tolerance: 0.02,
         angle: 0.0,
         friction: 0.0,
+        adhesion: None,
         method: None,
         bed: None,
     }
@@ -75,6 +76,7 @@ pub fn summary(velocity: f64, figures: [f64; 5]) -> Summary {
         points: 0,
         steps: 0,
         wall_s: 0.0,
+        adhesion: None,
         cylinder: None,
         target: None,
         scheme: None,
@@ -93,6 +95,7 @@ pub fn sample(time_s: f64, displacement_m: f64, force_n: f64) -> Sample {
         force_n,
         tangential_force_n: None,
         target_displacement_m: None,
+        surface_j: None,
         contact_radius_m: 0.0,
         kinetic_j: 0.0,
         elastic_j: 0.0,

@@ -287,6 +287,7 @@ fn runs(chapter: &Chapter, lines: &[Line]) -> Section {
 fn status(run: &Done) -> String {
     match &run.impact.summary.status {
         crate::curve::Status::Ok => "ok".to_owned(),
+        crate::curve::Status::Sticks => "sticks".to_owned(),
         crate::curve::Status::NoRebound => "no rebound".to_owned(),
         crate::curve::Status::Failed(reason) => reason.clone(),
     }

@@ -6,6 +6,7 @@ use crate::impact::grid::section::Section;
 use crate::impact::kernel::{Matter, Point, Points};
 use crate::impact::points::lattice;
 use crate::impact::points::section::{SectionPoint, SurfacePoint, clip_cell, meridian, whole_cell};
+use crate::impact::wall::attraction::Attraction;
 use crate::impact::wall::contact_point::ContactPoint;
 use crate::impact::wall::meridian::{Contact, Wall};
 use crate::plan::{Grid, graded};
@@ -42,7 +43,8 @@ keep_fields!(impl [S: Space, W: Wall<S>, const N: usize] Model<S, W, N>: points,
     rebuilt mass, recip_mass, places, copies, markers);
 
 /// Model of the axisymmetric section.
-pub type AxisymmetricModel<const N: usize> = Model<Axisymmetric, Contact<Axisymmetric, N>, N>;
+pub type AxisymmetricModel<const N: usize, A = ()> =
+    Model<Axisymmetric, Contact<Axisymmetric, N, A>, N>;
 
 /// The grid of a plan over the unit sphere.
 fn section<const P: usize>(grid: &Grid, layout: Layout) -> Section<P> {
@@ -60,13 +62,24 @@ fn section<const P: usize>(grid: &Grid, layout: Layout) -> Section<P> {
     )
 }
 
-/// Lay `grid` over its body, of radius one and the given material. `N` must be $(P+1)^2$.
+/// Lay `grid` over its body, of radius one and the given material, before a wall that does not attract it. `N` must be $(P+1)^2$.
 pub fn build<const P: usize, const N: usize>(
     grid: &Grid,
     layout: Layout,
     matter: Box<dyn Matter<Axisymmetric>>,
     contact_tolerance: f64,
 ) -> AxisymmetricModel<N> {
+    build_attracted::<P, N, ()>(grid, layout, matter, contact_tolerance, ())
+}
+
+/// [`build()`] before a wall that attracts it.
+pub fn build_attracted<const P: usize, const N: usize, A: Attraction>(
+    grid: &Grid,
+    layout: Layout,
+    matter: Box<dyn Matter<Axisymmetric>>,
+    contact_tolerance: f64,
+    attraction: A,
+) -> AxisymmetricModel<N, A> {
     const { assert!(N == (P + 1) * (P + 1)) };
     let mut section = section::<P>(grid, layout);
     let columns = section.r.cells();
@@ -107,7 +120,7 @@ pub fn build<const P: usize, const N: usize>(
         grid.density(section.least_side(section.cell_of(r, z)))
     });
     let recip_mass = recip_mass(&mass, section.r.functions());
-    let mut contact = Contact::new(section.offsets(), contact_tolerance);
+    let mut contact = Contact::attracted(section.offsets(), contact_tolerance, attraction);
     let outline = match grid.shape {
         Shape::Sphere => surface(&section, layout),
         Shape::Cylinder { length } => (cylinder(&section, length).into_iter())

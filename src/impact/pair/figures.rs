@@ -72,6 +72,7 @@ impl PairRun<'_> {
             seconds_before: 0.0,
             memory_bytes: first.bytes() + second.bytes(),
             transfer_loss: 0.0,
+            contact_loss: 0.0,
             frames: std::mem::take(&mut self.frames),
             compressed,
             rebound: particle,

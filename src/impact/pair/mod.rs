@@ -344,6 +344,7 @@ impl<'a> PairRun<'a> {
             kinetic: sum(kinetic),
             elastic: sum(elastic),
             plastic: sum(plastic),
+            surface: 0.0,
             height: first.height(south, north),
         });
         // a free body flies on as a whole; what is left is its vibration

@@ -73,7 +73,7 @@ where
         self.book(&touch, dt);
         if let Some(output) = output {
             output.elastic += sweep.elastic;
-            output.impulse += touch.impulse;
+            output.impulse += touch.impulse - touch.pull;
             output.tangential += touch.tangential;
         }
         if level < self.model.points.deepest() {
@@ -93,26 +93,29 @@ where
     /// Velocities after forces and contact of the longest step.
     fn kick(&mut self, dt: f64) -> Touch {
         self.old.copy_from_slice(&self.v);
+        let travel = self.transfer.travel(&self.u);
+        let pull = self.model.contact.pull(travel, &mut self.force);
+        self.surface = pull.energy;
         let recip_mass = &self.model.recip_mass;
         for (n, v) in self.v.iter_mut().enumerate() {
             push(v, dt, &self.force[n], &recip_mass[n]);
         }
-        let travel = self.transfer.travel(&self.u);
         let contact = &mut self.model.contact;
         let mut touch = contact.solve(dt, travel, &self.old, &mut self.v, recip_mass);
         if touch.impulse > 0.0 {
             touch.work += self.turn();
         }
+        touch.pull = pull.force * dt;
         touch
     }
 
     /// Add up what contact did in a step of length `dt`.
     fn book(&mut self, touch: &Touch, dt: f64) {
-        self.impulse += touch.impulse;
+        self.impulse += touch.impulse - touch.pull;
         self.tangential += touch.tangential;
         self.contact_work += touch.work;
         self.contact_radius = self.contact_radius.max(touch.radius);
-        if touch.impulse > 0.0 {
+        if touch.impulse > 0.0 || touch.pull > 0.0 {
             self.contact_end = self.time + dt;
         }
     }

@@ -56,7 +56,7 @@ keep_fields!(
     impl [S: Space, W: Wall<S>, T: Remap<S::Vector>, const N: usize]
     Run<'_, S, W, T, N>:
     model, transfer, transferred, u, v, limit, local, dt, time, step, stepped, next_refresh, next_output, impulse, tangential,
-    contact_work, plastic, shock, contact_radius, contact_end, frames, closure, compressed, film, erosion, start;
+    contact_work, surface, plastic, shock, contact_radius, contact_end, frames, closure, compressed, film, erosion, start;
     rebuilt plan, speed, old, force, blocks, mass, failure, excess,
 );
 
@@ -91,6 +91,8 @@ where
     impulse: f64,
     tangential: f64,
     contact_work: f64,
+    /// Energy of the surface that the wall attracts.
+    surface: f64,
     plastic: f64,
     shock: f64,
     contact_radius: f64,
@@ -142,6 +144,7 @@ where
             impulse: 0.0,
             tangential: 0.0,
             contact_work: 0.0,
+            surface: 0.0,
             plastic: 0.0,
             shock: 0.0,
             contact_radius: 0.0,
@@ -158,6 +161,7 @@ where
             model,
         };
         run.excess = run.excess_inertia();
+        run.lift(run.model.contact.range());
         run.frames.push(run.first_frame());
         run.take_first_picture();
         run
@@ -234,6 +238,7 @@ where
             elastic,
             eroded: self.erosion.energy(),
         };
+        self.lift(self.model.contact.range());
         let [south, _, north] = &self.model.markers;
         let first = Frame {
             height: self.height(north, south),
@@ -244,9 +249,18 @@ where
         self.take_first_picture();
         (self.time, self.step, self.stepped, self.next_refresh) = (0.0, 0, 0, 0);
         (self.impulse, self.tangential, self.contact_work) = (0.0, 0.0, 0.0);
-        (self.plastic, self.shock) = (0.0, 0.0);
+        (self.plastic, self.shock, self.surface) = (0.0, 0.0, 0.0);
         (self.transferred, self.closure) = (0.0, 0.0);
         (self.contact_radius, self.contact_end) = (0.0, 0.0);
+    }
+
+    /// Take the body away from the wall by `range`: where a wall attracts, an impact begins where it is first felt.
+    fn lift(&mut self, range: f64) {
+        if range > 0.0 {
+            for u in &mut self.u {
+                u.as_mut()[S::NORMAL] += range;
+            }
+        }
     }
 
     /// Velocity before the impact.
@@ -260,15 +274,23 @@ where
         Frame {
             kinetic: 0.5 * self.mass * squared,
             height: self.plan.grid.shape.height(),
+            displacement: 0.0 - self.model.contact.range(),
+            centre_displacement: 0.0 - self.model.contact.range(),
             ..Frame::default()
         }
     }
 
-    /// Rebounded and rung out, flat, or out of time.
+    /// Rebounded and rung out, held by the wall, flat, or out of time.
     fn is_over(&self) -> bool {
         let rung = self.time > self.contact_end + self.plan.ring_time;
         let rebounded = rung && self.mean(&self.v, S::NORMAL) > 0.0;
-        rebounded || self.is_flat() || self.time > self.plan.longest_time
+        rebounded || self.sticks() || self.is_flat() || self.time > self.plan.longest_time
+    }
+
+    /// On its way back to a wall that attracts it, before it came free of it.
+    fn sticks(&self) -> bool {
+        let attracted = self.model.contact.range() > 0.0 && self.compressed.is_some();
+        attracted && self.mean(&self.v, S::NORMAL) < 0.0
     }
 
     /// Spread into a sheet that has no height left to fall and hardly falls: it will not come back.
@@ -293,7 +315,8 @@ where
         let covering = covered * self.plan.grid.fine / (self.speed * self.dt);
         let interval = covering.clamp(1.0, REFRESH).floor();
         self.next_refresh += interval as u64;
-        let (speed, horizon) = (2.0 * self.speed, 2.0 * interval * self.dt);
+        let fastest = self.speed.max(self.model.contact.snapping());
+        let (speed, horizon) = (2.0 * fastest, 2.0 * interval * self.dt);
         let travel = self.transfer.travel(&self.u);
         self.model
             .contact

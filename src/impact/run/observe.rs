@@ -37,8 +37,9 @@ where
         let incident = self.frames[0].kinetic;
         let given = incident + self.start.elastic + self.contact_work + self.transferred;
         let lost = self.plastic + self.shock + self.erosion.energy() - self.start.eroded;
-        let balance = kinetic + elastic + lost - given;
-        let closure = (balance / incident).abs();
+        let balance = kinetic + elastic + self.surface + lost - given;
+        // over what there is to lose: of a slow particle that adheres most of it comes from the surfaces
+        let closure = (balance / (incident - self.surface)).abs();
         if !(closure <= UNSTABLE) {
             self.failure = Some(format!(
                 "energy imbalance {closure:e} of the incident energy"
@@ -59,6 +60,7 @@ where
             kinetic,
             elastic,
             plastic: self.plastic,
+            surface: self.surface,
             height: self.height(north, south),
         };
         self.contact_radius = 0.0;
@@ -179,7 +181,7 @@ where
     /// All that the impact leaves; the run keeps its body.
     pub(super) fn take_record(&mut self) -> Record {
         let memory_bytes = self.bytes();
-        let exit_speed = if self.is_flat() {
+        let exit_speed = if self.is_flat() || self.sticks() {
             0.0
         } else {
             self.mean(&self.v, S::NORMAL)
@@ -189,6 +191,7 @@ where
         let sliding = self.sliding();
         let status = match &self.failure {
             Some(reason) => Status::Failed(format!("step {}: {reason}", self.step)),
+            None if self.sticks() => Status::Sticks,
             None if self.time > self.plan.longest_time => Status::NoRebound,
             None => Status::Ok,
         };
@@ -214,6 +217,7 @@ where
             seconds_before: 0.0,
             memory_bytes,
             transfer_loss,
+            contact_loss: -self.contact_work / self.frames[0].kinetic,
             frames: std::mem::take(&mut self.frames),
             compressed: self.compressed.take().unwrap_or_default(),
             rebound,
@@ -221,7 +225,7 @@ where
             status,
         };
         // other schemes are run to see what they do
-        if record.status == Status::Ok
+        if matches!(record.status, Status::Ok | Status::Sticks)
             && self.plan.scheme == Scheme::default()
             && let Err(reason) = record.verdict(self.plan.tolerance)
         {

@@ -13,6 +13,8 @@ use crate::shape::Shape;
 use crate::tape::keep_fields;
 use crate::unit::engineering;
 
+mod adhering;
+
 /// One output in run units (R, R/c0, E R^2, E R^3).
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Frame {
@@ -34,6 +36,8 @@ pub struct Frame {
     pub elastic: f64,
     /// Plastic work so far.
     pub plastic: f64,
+    /// Energy of the surface that the wall attracts.
+    pub surface: f64,
     /// Height of the particle along the impact axis.
     pub height: f64,
 }
@@ -119,7 +123,7 @@ impl Snapshot {
     }
 }
 
-keep_fields!(Frame: time, displacement, centre_displacement, impulse, tangential, contact_radius, kinetic, elastic, plastic, height);
+keep_fields!(Frame: time, displacement, centre_displacement, impulse, tangential, contact_radius, kinetic, elastic, plastic, surface, height);
 keep_fields!(SectionView: place, plastic_strain, von_mises, pressure, temperature);
 keep_fields!(Snapshot: points, outline);
 
@@ -162,6 +166,8 @@ pub struct Record {
     pub memory_bytes: usize,
     /// Energy lost in transfers between points and grid over the incident kinetic energy.
     pub transfer_loss: f64,
+    /// Energy lost as surface points met the wall, over the incident kinetic energy.
+    pub contact_loss: f64,
     /// How it ended.
     pub status: Status,
     /// The particle at its largest displacement.
@@ -199,6 +205,12 @@ impl Record {
     /// would bounce, six times that of half the displacement), and over no less than the time in which the edge of a flattened
     /// body crosses a cell: each surface point that it reaches gives a knock.
     fn max_force(&self) -> f64 {
+        self.mean_forces()
+            .fold(0.0, |most, (_, force)| f64::max(most, force))
+    }
+
+    /// The force averaged as [`Record::max_force`] says, where its mean has a kink, with the times.
+    fn mean_forces(&self) -> impl Iterator<Item = (f64, f64)> {
         let most = self.largest(|f| f.displacement);
         let middle = self.frames.iter().find(|f| f.displacement >= 0.5 * most);
         let bounce = 6.0 * middle.map_or(0.0, |f| f.time);
@@ -206,17 +218,16 @@ impl Record {
         let [least, longest] = [FORCE_WINDOW, LONGEST_FORCE_WINDOW].map(|share| share * whole);
         let half = 0.5 * self.crossing().min(longest).max(least);
         let (from, to) = (half, self.contact_end - half);
-        let mean = |t: f64| {
+        let mean = move |t: f64| {
             let after = self.at(t + half, |f| f.impulse);
-            (after - self.at(t - half, |f| f.impulse)) / (2.0 * half)
+            (t, (after - self.at(t - half, |f| f.impulse)) / (2.0 * half))
         };
         // the mean is piecewise linear between the frames' times shifted by half a window
         self.frames
             .iter()
-            .flat_map(|f| [f.time - half, f.time + half])
-            .filter(|t| *t >= from && *t <= to)
+            .flat_map(move |f| [f.time - half, f.time + half])
+            .filter(move |t| *t >= from && *t <= to)
             .map(mean)
-            .fold(0.0, f64::max)
     }
 
     /// Mean time in which the edge of the contact goes on by a cell until it is widest; 0 where it does not knock.
@@ -383,6 +394,7 @@ impl Record {
                 kinetic_j: middle(|f| f.kinetic) * energy,
                 elastic_j: middle(|f| f.elastic) * energy,
                 plastic_j: middle(|f| f.plastic) * energy,
+                surface_j: plan.adhesion.map(|_| middle(|f| f.surface) * energy),
             });
         }
         let incident = self.frames[0].kinetic;
@@ -417,6 +429,7 @@ impl Record {
                     mean_temperature_k: warmth.mean,
                 }
             }),
+            adhesion: self.adhesion(material, radius, plan),
             tangential: self.sliding.map(|s| s.figures(radius, units.speed())),
             target: None,
             scheme: None,

@@ -354,6 +354,7 @@ impl<'a, const P: usize, const N: usize> Updated<'a, P, N> {
             kinetic: mass * self.mean(|p| 0.5 * (p.velocity[0].powi(2) + p.velocity[1].powi(2))),
             elastic: mass * self.mean(elastic),
             plastic: self.plastic,
+            surface: 0.0,
             height: 2.0 + travel(2.0) - travel(0.0),
         }
     }
@@ -415,6 +416,7 @@ impl<'a, const P: usize, const N: usize> Updated<'a, P, N> {
             sliding: None,
             // all that is missing is put down to the transfers; they are not audited one by one
             closure: 0.0,
+            contact_loss: 0.0,
             transfer_loss: frames.last().map_or(0.0, missing),
             eroded: 0.0,
             shock: 0.0,

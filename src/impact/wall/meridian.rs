@@ -12,6 +12,7 @@
 //! bodies that are flattened the material points are therefore held too (`interior`): as long as none of them is
 //! about to pass the wall, nothing but a look at those near it is done.
 
+use crate::impact::wall::attraction::{Attraction, Pull};
 use crate::impact::wall::complementarity::{Complementarity, Unknown};
 use crate::impact::wall::contact_point::ContactPoint;
 use crate::impact::wall::interior::Interior;
@@ -21,19 +22,26 @@ use crate::tape::keep_fields;
 
 /// Surface points, material points near the wall, and their impulses.
 #[derive(Debug, Clone)]
-pub struct Contact<S: Space, const N: usize> {
+pub struct Contact<S: Space, const N: usize, A: Attraction = ()> {
     points: Vec<ContactPoint<N>>,
     offsets: [usize; N],
     surface: Complementarity,
     candidates: Vec<usize>,
     interior: Interior<N>,
     time: f64,
+    attraction: A,
+    /// Forces of attraction on the surface points within its reach.
+    pulls: A::Forces,
     space: std::marker::PhantomData<S>,
 }
 
-keep_fields!(impl [S: Space, const N: usize] Contact<S, N>: surface, candidates, interior, time; rebuilt points, offsets, space);
+keep_fields!(impl [S: Space, const N: usize, A: Attraction] Contact<S, N, A>: surface, candidates, interior, time;
+    rebuilt points, offsets, attraction, pulls, space);
 
-impl<S: Space, const N: usize> Wall<S> for Contact<S, N> {
+/// Speeds of surfaces that snap together, at most, over that of a wave with the traction of attraction.
+const SNAPPING: f64 = 2.0;
+
+impl<S: Space, const N: usize, A: Attraction> Wall<S> for Contact<S, N, A> {
     fn refresh(
         &mut self,
         u: &[S::Vector],
@@ -45,7 +53,8 @@ impl<S: Space, const N: usize> Wall<S> for Contact<S, N> {
         for c in 0..self.points.len() {
             let p = &self.points[c];
             let gap = p.height + p.at(&self.offsets, u, S::NORMAL);
-            let near = gap < speed * horizon || self.surface.unknowns[c].active;
+            let near =
+                gap < speed * horizon + self.attraction.range() || self.surface.unknowns[c].active;
             if near && self.offsets.iter().any(|offset| among(p.node + offset)) {
                 self.candidates.push(c);
             } else {
@@ -109,6 +118,37 @@ impl<S: Space, const N: usize> Wall<S> for Contact<S, N> {
         touch
     }
 
+    fn pull(&mut self, u: &[S::Vector], force: &mut [S::Vector]) -> Pull {
+        if !A::ON {
+            return Pull::default();
+        }
+        // what lies beyond the outermost candidate and its neighbour is out of range
+        let count = self.candidates.last().map_or(0, |last| last + 2);
+        let points = &self.points[..count.min(self.points.len())];
+        let offsets = &self.offsets;
+        let places = points.iter().map(|p| {
+            let [across, up] = [0, S::NORMAL].map(|axis| p.at(offsets, u, axis));
+            [p.radius + across, p.height + up]
+        });
+        let pull = self.attraction.pull(places, &mut self.pulls);
+        for (p, pulled) in points.iter().zip(self.pulls.as_ref()) {
+            for (value, offset) in p.values.iter().zip(offsets) {
+                let force = force[p.node + offset].as_mut();
+                force[0] += value * pulled[0];
+                force[S::NORMAL] += value * pulled[1];
+            }
+        }
+        pull
+    }
+
+    fn range(&self) -> f64 {
+        self.attraction.range()
+    }
+
+    fn snapping(&self) -> f64 {
+        SNAPPING * self.attraction.strength()
+    }
+
     fn outline(&self, u: &[S::Vector]) -> Vec<(f64, f64)> {
         let place = |p: &ContactPoint<N>| {
             let [across, up] = [0, S::NORMAL].map(|axis| p.at(&self.offsets, u, axis));
@@ -119,9 +159,17 @@ impl<S: Space, const N: usize> Wall<S> for Contact<S, N> {
 }
 
 impl<S: Space, const N: usize> Contact<S, N> {
-    /// No points yet; `tolerance` is the speed below which a violation counts as solved.
+    /// No points yet, and a wall that does not attract them; `tolerance` is the speed below which a violation counts as solved.
     #[must_use]
     pub fn new(offsets: [usize; N], tolerance: f64) -> Self {
+        Self::attracted(offsets, tolerance, ())
+    }
+}
+
+impl<S: Space, const N: usize, A: Attraction> Contact<S, N, A> {
+    /// The same with a wall that attracts.
+    #[must_use]
+    pub fn attracted(offsets: [usize; N], tolerance: f64, attraction: A) -> Self {
         Contact {
             points: Vec::new(),
             offsets,
@@ -129,6 +177,8 @@ impl<S: Space, const N: usize> Contact<S, N> {
             candidates: Vec::new(),
             interior: Interior::new(tolerance),
             time: 0.0,
+            attraction,
+            pulls: A::Forces::default(),
             space: std::marker::PhantomData,
         }
     }

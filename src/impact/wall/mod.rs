@@ -1,5 +1,6 @@
 //! Wall: what a run asks of its contact, and what one step of contact answers.
 
+pub mod attraction;
 pub(crate) mod banded;
 pub(crate) mod complementarity;
 pub(crate) mod contact_point;
@@ -7,6 +8,7 @@ pub(crate) mod interior;
 pub(crate) mod meridian;
 pub mod surface;
 
+use self::attraction::Pull;
 use crate::space::Space;
 use crate::tape::Keep;
 
@@ -26,6 +28,8 @@ pub struct Touch {
     pub radius: f64,
     /// Largest violation left, as a speed (0 where the active set closed).
     pub residual: f64,
+    /// Impulse of attraction, towards the wall; not in `impulse`.
+    pub pull: f64,
 }
 
 /// What a run asks of its contact with the wall.
@@ -42,6 +46,18 @@ pub trait Wall<S: Space>: Clone + Keep {
         v: &mut [S::Vector],
         recip_mass: &[S::Vector],
     ) -> Touch;
+    /// Forces of the wall's attraction at displacements `u`, added to `force`; 0 where it has none.
+    fn pull(&mut self, _u: &[S::Vector], _force: &mut [S::Vector]) -> Pull {
+        Pull::default()
+    }
+    /// Gap from which on the wall does not attract; 0 where it never does.
+    fn range(&self) -> f64 {
+        0.0
+    }
+    /// Speed at which surfaces may snap together; 0 where they do not.
+    fn snapping(&self) -> f64 {
+        0.0
+    }
     /// Deformed surface points of the meridian, pole to pole: distance from the axis and height above the wall.
     fn outline(&self, u: &[S::Vector]) -> Vec<(f64, f64)>;
 }

@@ -128,7 +128,7 @@ class Impact:
     def velocity(self) -> float: ...
     @property
     def status(self) -> str:
-        """`ok`, `no_rebound`, or why it failed."""
+        """`ok`, `sticks`, `no_rebound`, or why it failed."""
 
     @property
     def warnings(self) -> list[str]: ...
