@@ -24,28 +24,33 @@ fn ball(density: f64, modulus: f64, velocity: f64, scheme: &str) -> String {
     )
 }
 
-#[test]
-fn balls_under_the_thesis_preset_rebound_as_it_prints() {
-    // tables 6-3 and 6-4, section 6.2: 50 points a diameter, ratio 1.05; its step of 1 ns gives the same as 100 ns to 1e-4 (the next
-    // test)
+/// A ball of density (kg/m3), modulus (MPa), velocity (m/s) that keeps this height over its diameter, as printed in tables 6-3 and 6-4.
+fn rebounds_as_printed([density, modulus, velocity, height]: [f64; 4]) {
+    // section 6.2: 50 points a diameter, ratio 1.05; its step of 1 ns gives the same as 100 ns to 1e-4 (the next test)
     let scheme = "[scheme]\npreset = \"thesis\"\ndimensions = 2\n";
-    for (density, modulus, velocity, height) in [
-        (889.0, 2.57, 4.3, 0.89),
-        (894.0, 3.55, 5.41, 0.88),
-        (1404.0, 4.9, 5.74, 0.87),
-    ] {
-        let s = run(&ball(density, modulus, velocity, scheme)).summary;
-        assert!((0.975..0.985).contains(&s.restitution), "{}", s.restitution);
-        let found = s.height_at_max_compression_ratio;
-        assert!((found - height).abs() < 6e-3, "{found} {height}");
-        // of the 3.5 % of the energy that are missing transfers took 1; nothing is unaccounted for
-        let scheme = s.scheme.unwrap();
-        assert!(
-            (0.005..0.02).contains(&scheme.transfer_loss_ratio),
-            "{scheme:?}"
-        );
-        assert!(s.energy_closure < 1e-3, "{}", s.energy_closure);
-    }
+    let s = run(&ball(density, modulus, velocity, scheme)).summary;
+    assert!((0.975..0.985).contains(&s.restitution), "{}", s.restitution);
+    let found = s.height_at_max_compression_ratio;
+    assert!((found - height).abs() < 6e-3, "{found} {height}");
+    // of the 3.5 % of the energy that are missing transfers took 1; nothing is unaccounted for
+    let scheme = s.scheme.unwrap();
+    assert!(
+        (0.005..0.02).contains(&scheme.transfer_loss_ratio),
+        "{scheme:?}"
+    );
+    assert!(s.energy_closure < 1e-3, "{}", s.energy_closure);
+}
+
+#[test]
+fn a_ball_under_the_thesis_preset_rebounds_as_it_prints() {
+    rebounds_as_printed([889.0, 2.57, 4.3, 0.89]);
+}
+
+#[test]
+#[ignore = "half a minute of a core"]
+fn the_other_balls_under_the_thesis_preset_rebound_as_it_prints() {
+    rebounds_as_printed([894.0, 3.55, 5.41, 0.88]);
+    rebounds_as_printed([1404.0, 4.9, 5.74, 0.87]);
 }
 
 #[test]
