@@ -180,7 +180,7 @@ def main():
     parser.add_argument("--velocity", type=float, required=True, help="of our impact, m/s: as fast as reaches the flattening")
     parser.add_argument("--cells", default="6,9,13", help="elements of a contact radius")
     parser.add_argument("--law", type=Path, help="law file of the case: its force at rest, without inertia")
-    parser.add_argument("--reference", type=Path, help="slow F(delta) of the centre: displacement_over_R, force_N, phase")
+    parser.add_argument("--reference", type=Path, help="slow F(delta) of the centre: displacement over R, force in N and, where it is let go, load or unload")
     parser.add_argument("--out", type=Path, default=Path("out/independent"))
     args = parser.parse_args()
     if not shutil.which("ccx"):
@@ -203,15 +203,18 @@ def main():
     if args.law:
         compared.append(("law at rest", "centre of mass", *at_rest(args.law, radius, args.flattening * radius)))
     if args.reference:
-        table = [line.split(",") for line in open(args.reference)][1:]
-        pick = lambda phase: [[float(r[k]) * unit for r in table if r[2].strip() == phase] for k, unit in ((0, radius), (1, 1.0))]
+        # lines before the names of the columns are remarks; without a phase all is loading
+        table = [line.strip().split(",") for line in open(args.reference)]
+        table = [row for row in table if row[0].replace(".", "", 1).isdigit()]
+        pick = lambda phase: [[float(r[k]) * unit for r in table if ([*r, "load"][2]).strip() == phase] for k, unit in ((0, radius), (1, 1.0))]
         unload = pick("unload")
         for name in ("centre of mass", "centre"):
-            compared.append((args.reference.name, name, pick("load"), lost(*unload) / unload[0][0]))
+            compared.append((args.reference.name, name, pick("load"), lost(*unload) / unload[0][0] if unload[0] else None))
     for cells in args.cells.split(","):
         folder = args.out / f"cells_{cells}"
         run([program(), "export", args.case, "--to", "calculix", "--flattening", args.flattening, "--cells", cells, "--out", folder])
-        deck = calculix(folder / "calculix" / "flattening.inp")
+        (written,) = (folder / "calculix").glob("*.inp")
+        deck = calculix(written)
         own = {"centre of mass": deck.means, "centre": deck.centres}
         for beside, name, other, residual in compared:
             load, back = branches(own[name], deck.forces)

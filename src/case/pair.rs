@@ -212,7 +212,7 @@ impl PairCase {
 
 /// Refusal of a second body where a case of a rigid wall was to be read.
 pub(super) fn refusal(document: &Document) -> Error {
-    let allowed = "must be left out here: an impact on a deformable wall is planned, run, fitted and compared by `impactlaw plan`, `impact`, `fit`, \
-                   `compare` and `run`; all else is made of impacts on a rigid wall";
+    let allowed = "must be left out here: an impact on a deformable wall is planned, run, fitted, compared and exported by `impactlaw plan`, `impact`, `fit`, \
+                   `compare`, `run` and `export`; all else is made of impacts on a rigid wall";
     document.reject("wall.material", allowed)
 }

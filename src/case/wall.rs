@@ -26,7 +26,7 @@ keys! {
         friction: key("Coulomb's friction coefficient of a rigid wall", "0 to 2", "0.3").or("0"),
         work_of_adhesion: key("work of adhesion w of particle and rigid wall, γ₁ + γ₂ - γ₁₂: energy that a unit of area gives as the surfaces meet; known to `impact`, `plan` and the adhesive models of `theory`", "≥ 0", "'50 mJ/m2'").or("0"),
         adhesion_range: key("gap h₀ up to which they attract each other, with the constant traction w/h₀ (Dugdale, Maugis)", "> 0", "'20 nm'").or("chosen: the limit of Johnson, Kendall and Roberts; of a body that yields, a traction of its yield strength"),
-        material: table("what a deformable wall is made of: constants, or the name of one of `models/constants/`; with it the impact is one of two bodies, which `plan`, `impact`, `fit`, `compare` and `run` know").or("rigid"),
+        material: table("what a deformable wall is made of: constants, or the name of one of `models/constants/`; with it the impact is one of two bodies, which `plan`, `impact`, `fit`, `compare`, `run` and `export` know").or("rigid"),
         thickness: key("of a deformable wall: a plate that is held at its back", "> 0", "'10 mm'").or("half-space"),
         radius: key("of a second sphere, which takes the place of the wall and is free to move", "> 0", "'1 mm'").or("a wall"),
     }

@@ -2,7 +2,7 @@
 
 use super::{Context, Verdict, output_folder};
 use crate::Result;
-use crate::case::Case;
+use crate::case::pair::Asked;
 use crate::export::deck::{self, Code, Wanted};
 use crate::files::write_atomic;
 use std::fmt::Write;
@@ -19,9 +19,13 @@ pub(super) fn run(
     out: Option<&Path>,
     context: &Context,
 ) -> Result<Verdict> {
-    let case = Case::read(file)?;
+    let asked = Asked::read(file)?;
+    let case = asked.particle();
     let provenance = format!("{} (case sha256 {})", crate::PROGRAM, case.hash);
-    let files = deck::export(&case, code, wanted, &provenance)?;
+    let files = match &asked {
+        Asked::RigidWall(case) => deck::export(case, code, wanted, &provenance)?,
+        Asked::Pair(pair) => deck::export_pair(pair, code, wanted, &provenance)?,
+    };
     let folder = output_folder(out, &case.name)?;
     let folder = match out {
         Some(_) => folder.to_path_buf(),

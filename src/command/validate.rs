@@ -2,13 +2,16 @@
 
 use super::impact::interval;
 use super::show::validate::{page, text};
-use super::study_runs::{queue, run_folder, simulated};
+use super::study_runs::{Runs, queue, run_folder, simulated};
 use super::{CHECKPOINT_FILE, Command, Context, Verdict, output_folder};
 use crate::Result;
 use crate::case::Case;
+use crate::case::pair::Asked;
 use crate::curve::{Impact, Summary};
 use crate::files::{self, sha256, write_atomic};
+use crate::impact::pair::simulate_pair;
 use crate::impact::simulate_kept;
+use crate::plan::pair::{pair_plan, pair_plans};
 use crate::plan::{plan, plans};
 use crate::report::page::Block;
 use crate::shape::Shape;
@@ -19,6 +22,7 @@ use crate::validate::row::Outcome;
 use crate::validate::sample::Sampling;
 use crate::validate::{EXPERIMENTS, Found, Prepared, Stated};
 use clap::Args;
+use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -73,42 +77,34 @@ impl Command for ValidateArgs {
     fn run(&self, context: &Context) -> Result<Verdict> {
         let interval = interval(&self.checkpoint)?;
         let (hash, prepared) = self.prepared()?;
-        let cases: Vec<Case> = prepared.iter().flat_map(|one| one.cases.clone()).collect();
-        cases.iter().try_for_each(|case| plans(case).map(drop))?;
-        let (spheres, cylinders): (Vec<Case>, Vec<Case>) = cases
-            .into_iter()
-            .partition(|case| case.shape == Shape::Sphere);
-        let study = Study::made_from(&hash, "validation", spheres);
+        let all: Vec<Asked> = (prepared.iter())
+            .flat_map(|one| one.cases.iter().map(|case| one.asked(case)))
+            .collect();
+        all.iter().try_for_each(|asked| match asked {
+            Asked::RigidWall(case) => plans(case).map(drop),
+            Asked::Pair(pair) => pair_plans(pair).map(drop),
+        })?;
+        let (spheres, others): (Vec<Asked>, Vec<Asked>) = all.into_iter().partition(is_scaled);
+        let spheres = spheres.iter().map(|asked| asked.particle().clone());
+        let study = Study::made_from(&hash, "validation", spheres.collect());
         let out = output_folder(self.out.as_deref(), "validation")?;
         context.open_log(&out, "validate", &hash);
         let mut runs = simulated(&study, queue(&study), &[&out], interval, context)?;
-        for case in &cylinders {
-            let summary = cylinder(case, &out, interval, &context.provenance(&hash))?;
-            runs.insert(name(case), (0, summary));
-        }
+        let provenance = context.provenance(&hash);
+        let alone = others.par_iter().with_max_len(1).map(|asked| {
+            let summary = in_its_units(asked, &out, interval, &provenance)?;
+            Ok((name(asked), (0, summary)))
+        });
+        runs.extend(alone.collect::<Result<Vec<_>>>()?);
         let mut found = Vec::new();
         let sampling = Sampling {
             draws: self.draws as usize,
             seed: self.seed,
         };
         for one in prepared {
-            let flats = one.stated.figures.contains(&Figure::Compression);
-            let outcome = |case: &Case| {
-                let name = name(case);
-                let (_, summary) = &runs[&name];
-                Ok(Outcome {
-                    case: case.clone(),
-                    summary: match case.shape {
-                        Shape::Sphere => scaled(summary, &REFERENCE, case),
-                        Shape::Cylinder { .. } => summary.clone(),
-                    },
-                    flat: match flats {
-                        true => widest(&run_folder(&out, &name))?,
-                        false => f64::NAN,
-                    },
-                })
-            };
-            let outcomes = one.cases.iter().map(outcome).collect::<Result<_>>()?;
+            let outcomes = one.cases.iter();
+            let outcomes = outcomes.map(|case| outcome(&one, case, &runs, &out));
+            let outcomes = outcomes.collect::<Result<_>>()?;
             // its place among all, so that it draws the same alone
             let place = EXPERIMENTS
                 .iter()
@@ -128,44 +124,90 @@ impl Command for ValidateArgs {
     }
 }
 
-/// Name of the run of a case.
-fn name(case: &Case) -> String {
-    match case.shape {
-        Shape::Sphere => Groups::of(case).name(),
-        // groups are those of spheres
-        Shape::Cylinder { .. } => {
-            let Case {
-                shape,
-                radius,
-                material,
-                velocities,
-                tolerance,
-                ..
-            } = case;
-            let all = format!("{shape:?} {radius:e} {material:?} {velocities:?} {tolerance:e}");
-            format!("cylinder_{}", &sha256([all])[..16])
-        }
-    }
+/// Outcome of a case of an experiment, from the runs of all.
+fn outcome(one: &Prepared, case: &Case, runs: &Runs, out: &Path) -> Result<Outcome> {
+    let of_flats = [Figure::Compression, Figure::MeanPressure];
+    let flats = of_flats.iter().any(|f| one.stated.figures.contains(f));
+    let asked = one.asked(case);
+    let name = name(&asked);
+    let (_, summary) = &runs[&name];
+    // runs of scaled cases have a radius of one
+    let (summary, unit) = match is_scaled(&asked) {
+        true => (scaled(summary, &REFERENCE, case), 1.0),
+        false => (summary.clone(), case.radius),
+    };
+    Ok(Outcome {
+        case: case.clone(),
+        target: one.target,
+        summary,
+        flat: match flats {
+            true => widest(&run_folder(out, &name))? / unit,
+            false => f64::NAN,
+        },
+    })
 }
 
-/// Impact of a cylinder, kept as those of spheres are, in its own units.
-fn cylinder(case: &Case, out: &Path, interval: Duration, provenance: &str) -> Result<Summary> {
-    let name = name(case);
+/// Whether an impact is run by its groups, as those of a study are.
+fn is_scaled(asked: &Asked) -> bool {
+    matches!(asked, Asked::RigidWall(case) if case.shape == Shape::Sphere)
+}
+
+/// Name of the run of an impact.
+fn name(asked: &Asked) -> String {
+    if let Asked::RigidWall(case) = asked
+        && is_scaled(asked)
+    {
+        return Groups::of(case).name();
+    }
+    // groups are those of spheres on a rigid wall
+    let Case {
+        shape,
+        radius,
+        material,
+        velocities,
+        tolerance,
+        ..
+    } = asked.particle();
+    let kind = match asked.pair() {
+        None => shape.name(),
+        Some(_) => "pair",
+    };
+    let target = asked.pair().map(|pair| pair.target);
+    let all = format!("{shape:?} {radius:e} {material:?} {velocities:?} {tolerance:e} {target:?}");
+    format!("{kind}_{}", &sha256([all])[..16])
+}
+
+/// Impact of a cylinder or of two bodies, kept as those of spheres are, in its own units.
+fn in_its_units(
+    asked: &Asked,
+    out: &Path,
+    interval: Duration,
+    provenance: &str,
+) -> Result<Summary> {
+    let (name, case) = (name(asked), asked.particle());
     let folder = run_folder(out, &name);
     if let Some(kept) = KeptRun::figures(&folder, &name, case) {
         return Ok(kept);
     }
-    let plan = plan(case, case.velocities[0]);
+    let velocity = case.velocities[0];
     let checkpoint = Checkpoint::new(&folder.join(CHECKPOINT_FILE), interval);
-    let simulated = simulate_kept(&case.material, case.radius, &plan, &checkpoint);
-    simulated.impact.write(&folder, provenance)?;
+    let impact = match asked {
+        Asked::RigidWall(case) => {
+            let plan = plan(case, velocity);
+            simulate_kept(&case.material, case.radius, &plan, &checkpoint).impact
+        }
+        Asked::Pair(pair) => {
+            simulate_pair(pair, &pair_plan(pair, velocity), Some(&checkpoint)).impact
+        }
+    };
+    impact.write(&folder, provenance)?;
     KeptRun::of(case, &name).write(&folder)?;
-    Ok(simulated.impact.summary)
+    Ok(impact.summary)
 }
 
-/// Widest contact of a kept run, over R.
+/// Widest contact of a kept run, in the unit of its lengths.
 fn widest(run: &Path) -> Result<f64> {
-    let impact = Impact::read(run)?;
+    let impact = Impact::read_any(run)?;
     let radii = impact.curve.samples.iter().map(|one| one.contact_radius_m);
     Ok(radii.fold(0.0, f64::max))
 }

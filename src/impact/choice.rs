@@ -138,10 +138,7 @@ where
     };
     let transfer = match plan.scheme.transfer {
         Transfer::Persistent => Exchange::Persistent,
-        Transfer::Blend(flip) => Exchange::Blend(Box::new(Blend {
-            carriers: carriers(),
-            flip,
-        })),
+        Transfer::Blend(flip) => Exchange::Blend(Box::new(Blend::new(carriers(), points, flip))),
         Transfer::Apic => Exchange::Apic(Box::new(Apic::new(carriers(), points, &model.places))),
     };
     Run::new(model, transfer, plan, speed).finish(job.keeper())

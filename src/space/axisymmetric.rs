@@ -174,6 +174,28 @@ impl Space for Axisymmetric {
         }
     }
     #[inline(always)]
+    fn from_points(h: &[[f64; 9]; 4]) -> AxialGradient {
+        let one = Lanes::splat(1.0);
+        let of = |k: usize| Lanes::new([h[0][k], h[1][k], h[2][k], h[3][k]]);
+        AxialGradient {
+            rr: one + of(0),
+            rz: of(1),
+            zr: of(3),
+            zz: one + of(4),
+            hoop: one + of(8),
+        }
+    }
+    #[inline(always)]
+    fn to_points(p: &AxialGradient) -> [[f64; 9]; 4] {
+        let (rr, rz, zr) = (p.rr.array(), p.rz.array(), p.zr.array());
+        let (zz, hoop) = (p.zz.array(), p.hoop.array());
+        let mut points = [[0.0; 9]; 4];
+        for k in 0..4 {
+            points[k] = [rr[k], rz[k], 0.0, zr[k], zz[k], 0.0, 0.0, 0.0, hoop[k]];
+        }
+        points
+    }
+    #[inline(always)]
     fn determinant(f: &AxialGradient) -> Lanes {
         f.plane() * f.hoop
     }

@@ -33,10 +33,40 @@ pub trait Symmetric: Copy + Keep + Send + Sync + 'static {
     fn where_positive(&self, test: Lanes, other: &Self) -> Self;
 }
 
+/// Vectors whose components lie side by side in memory.
+pub trait Flat: Sized {
+    /// Components of one.
+    const COMPONENTS: usize;
+    /// Components of all, vector after vector.
+    fn flat(all: &[Self]) -> &[f64];
+    /// The same, to be changed.
+    fn flat_mut(all: &mut [Self]) -> &mut [f64];
+}
+
+impl<const D: usize> Flat for [f64; D] {
+    const COMPONENTS: usize = D;
+    #[inline(always)]
+    fn flat(all: &[Self]) -> &[f64] {
+        all.as_flattened()
+    }
+    #[inline(always)]
+    fn flat_mut(all: &mut [Self]) -> &mut [f64] {
+        all.as_flattened_mut()
+    }
+}
+
 /// A space a run can live in.
 pub trait Space: Copy + Send + Sync + 'static {
     /// Vector of a node (displacement, velocity, force).
-    type Vector: Copy + Default + Keep + Send + Sync + std::fmt::Debug + AsRef<[f64]> + AsMut<[f64]>;
+    type Vector: Copy
+        + Default
+        + Keep
+        + Flat
+        + Send
+        + Sync
+        + std::fmt::Debug
+        + AsRef<[f64]>
+        + AsMut<[f64]>;
     /// Deformation gradient, or first Piola-Kirchhoff stress.
     type Gradient: Copy + Send + Sync;
     /// Stress-like tensor.
@@ -86,6 +116,11 @@ pub trait Space: Copy + Send + Sync + 'static {
     /// `force += P grad N` lane by lane for each node of a row, all components of a node side by side; the counterpart of
     /// [`Self::add_row`].
     fn add_row_force(force: &mut [Lanes], p: &Self::Gradient, first: &[Lanes], row: &[Lanes; 3]);
+    /// Deformation gradients of four points from their displacement gradients, row by row of three; what a curved space has besides, the
+    /// hoop strain, stands last.
+    fn from_points(displacement: &[[f64; 9]; 4]) -> Self::Gradient;
+    /// A tensor of four points taken apart as [`Self::from_points`] has it, without the unit.
+    fn to_points(tensor: &Self::Gradient) -> [[f64; 9]; 4];
     /// Determinant J.
     fn determinant(f: &Self::Gradient) -> Lanes;
     /// $F C F^T$.

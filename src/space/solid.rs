@@ -119,7 +119,13 @@ fn dot(a: &[Lanes; 3], b: &[Lanes; 3]) -> Lanes {
 #[inline(always)]
 fn congruent(a: &[[Lanes; 3]; 3], c: &SolidSymmetric) -> SolidSymmetric {
     let rows = c.rows();
-    let half = a.map(|row| rows.map(|column| dot(&row, &column)));
+    // by index, as below: closures of arrays are functions of their own
+    let mut half = [[Lanes::default(); 3]; 3];
+    for i in 0..3 {
+        for j in 0..3 {
+            half[i][j] = dot(&a[i], &rows[j]);
+        }
+    }
     SolidSymmetric {
         xx: dot(&half[0], &a[0]),
         yy: dot(&half[1], &a[1]),
@@ -214,6 +220,30 @@ impl Space for Solid {
         }
     }
     #[inline(always)]
+    fn from_points(h: &[[f64; 9]; 4]) -> SolidGradient {
+        let mut f = Self::identity();
+        for i in 0..3 {
+            for j in 0..3 {
+                let k = 3 * i + j;
+                f.0[i][j] += Lanes::new([h[0][k], h[1][k], h[2][k], h[3][k]]);
+            }
+        }
+        f
+    }
+    #[inline(always)]
+    fn to_points(p: &SolidGradient) -> [[f64; 9]; 4] {
+        let mut points = [[0.0; 9]; 4];
+        for i in 0..3 {
+            for j in 0..3 {
+                let lanes = p.0[i][j].array();
+                for k in 0..4 {
+                    points[k][3 * i + j] = lanes[k];
+                }
+            }
+        }
+        points
+    }
+    #[inline(always)]
     fn determinant(f: &SolidGradient) -> Lanes {
         dot(&f.0[0], &cross(&f.0[1], &f.0[2]))
     }
@@ -224,7 +254,12 @@ impl Space for Solid {
     #[inline(always)]
     fn pull_back(f: &SolidGradient, recip_j: Lanes, b: &SolidSymmetric) -> SolidSymmetric {
         let c = cofactors(f);
-        let inverse = [0, 1, 2].map(|i| [c[0][i] * recip_j, c[1][i] * recip_j, c[2][i] * recip_j]);
+        let mut inverse = [[Lanes::default(); 3]; 3];
+        for i in 0..3 {
+            for j in 0..3 {
+                inverse[i][j] = c[j][i] * recip_j;
+            }
+        }
         congruent(&inverse, b)
     }
     #[inline(always)]
@@ -236,11 +271,15 @@ impl Space for Solid {
     ) -> SolidGradient {
         let c = cofactors(f);
         let scale = recip_j * volume;
-        let columns = [0, 1, 2].map(|j| [c[0][j] * scale, c[1][j] * scale, c[2][j] * scale]);
-        SolidGradient(
-            tau.rows()
-                .map(|row| columns.each_ref().map(|column| dot(&row, column))),
-        )
+        let rows = tau.rows();
+        let mut stress = [[Lanes::default(); 3]; 3];
+        for j in 0..3 {
+            let column = [c[0][j] * scale, c[1][j] * scale, c[2][j] * scale];
+            for i in 0..3 {
+                stress[i][j] = dot(&rows[i], &column);
+            }
+        }
+        SolidGradient(stress)
     }
 }
 

@@ -66,7 +66,7 @@ impl KeptRun {
         if sum_of(&text, b"") != Sum::Fits || kept.group != group {
             return begun_anew(&path, "it is damaged");
         }
-        match Impact::read(folder) {
+        match Impact::read_any(folder) {
             Ok(impact) => Some(scaled(&impact.summary, &kept.units(), case)),
             Err(error) => begun_anew(&path, &error.to_string()),
         }

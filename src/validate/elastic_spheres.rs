@@ -23,10 +23,6 @@ impl Experiment for ElasticSpheres {
         "No measurement: their answer is Hertz’s theory. It takes a half-space for each body, and a sphere is none: at a contact of 2.2, 4.5 and 8.9 % of the radius \
          (the aluminium at 0.2, 1.13 and 6.4 m/s) our force lies 0.8, 1.8 and 3.8 % above it and our time 0.6, 1.2 and 2.5 % below, both in proportion to \
          the contact’s radius, and the same at a tolerance of 1 %. So the difference is the theory’s.",
-        "Published measurements that were looked at and are not here, for what they need is not printed where they can be read: aluminium spheres on \
-         aluminium (605 m/s back at 45 m/s, MIT’s page on laser-driven impacts: no size, and the wall yields too), alumina on thick plates (Kharaz and \
-         Gorham 2000: points of e are in figures, the plate yields), micrometre spheres with adhesion (Wall and others 1990), the collection of Güttler and others (2012: \
-         files of the paper).",
     ];
 
     fn bounds(found: &Found) -> Vec<Bound> {

@@ -27,14 +27,20 @@ pub enum Kind {
     Equation,
     /// What the case file says too; it is drawn within its uncertainty.
     Input,
+    /// The source says that it is not more.
+    AtMost,
+    /// The source says that it is not less.
+    AtLeast,
 }
 
 /// Names of [`Kind`].
-const KINDS: [(&str, Kind); 4] = [
+const KINDS: [(&str, Kind); 6] = [
     ("measured", Kind::Measured),
     ("thesis_simulation", Kind::Simulation),
     ("thesis_equation", Kind::Equation),
     ("input", Kind::Input),
+    ("at_most", Kind::AtMost),
+    ("at_least", Kind::AtLeast),
 ];
 
 /// What has to be known of a value.
@@ -84,6 +90,8 @@ pub enum Figure {
     Force,
     /// Final length of a cylinder, m.
     Length,
+    /// Mean pressure of the contact at its widest, F*/(π a²), over the lower yield strength.
+    MeanPressure,
     /// Diameter of its foot, m.
     Foot,
     /// Its diameter at a fifth of the initial length above the foot, m.
@@ -115,7 +123,7 @@ pub enum Quantity {
 }
 
 /// Names of quantities in SI units, and the values that they may have: above the first, up to the second.
-const QUANTITIES: [(&str, Quantity, [f64; 2]); 14] = [
+const QUANTITIES: [(&str, Quantity, [f64; 2]); 15] = [
     (
         "contact_time_s",
         Quantity::Figure(Figure::ContactTime),
@@ -144,6 +152,11 @@ const QUANTITIES: [(&str, Quantity, [f64; 2]); 14] = [
     (
         "max_force_N",
         Quantity::Figure(Figure::Force),
+        [0.0, f64::MAX],
+    ),
+    (
+        "mean_pressure_ratio",
+        Quantity::Figure(Figure::MeanPressure),
         [0.0, f64::MAX],
     ),
     (
@@ -394,6 +407,8 @@ mod tests {
             ("a,input,velocity_m_s,1,0.9,p,", "line 3, uncertainty"),
             ("a,input,restitution,0.5,,p,", "line 3, kind"),
             ("a,measured,velocity_m_s,5,,p,", "line 3, kind"),
+            ("a,at_most,velocity_m_s,5,,p,", "line 3, kind"),
+            ("a,at_least,restitution,1.5,,p,", "line 3, value"),
             ("a,seen,restitution,0.5,,p,", "line 3, kind"),
             ("a,measured,restitution,0.5,,,", "line 3, source"),
             ("a,measured,restitution,0.5,,p,guessed", "line 3, flag"),

@@ -7,15 +7,19 @@
 mod aerosol_copper;
 mod balls;
 mod elastic_spheres;
+mod elastic_waves;
 mod impact_tester;
 mod lead_nickel;
+pub mod left_out;
 pub mod measured;
 mod prepare;
 pub mod row;
 pub mod sample;
 mod taylor_bar;
+mod yield_pressure;
 
 use crate::case::Case;
+use crate::case::pair::{Asked, Target};
 use crate::document::Document;
 use crate::study::Study;
 use crate::unit::significant;
@@ -32,6 +36,8 @@ pub enum File {
     Study,
     /// A case file: of a cylinder.
     Case,
+    /// A case file with a deformable wall, a case a speed.
+    Pair,
 }
 
 impl File {
@@ -40,20 +46,38 @@ impl File {
     pub fn verb(self) -> &'static str {
         match self {
             File::Study => "study",
-            File::Case => "impact",
+            File::Case | File::Pair => "impact",
         }
     }
 
-    /// Its cases.
+    /// Its cases, and what they meet where it is no rigid wall.
     ///
     /// # Errors
     /// Those of reading it.
-    fn cases(self, document: &Document) -> Result<Vec<Case>> {
+    fn cases(self, document: &Document) -> Result<(Vec<Case>, Option<Target>)> {
         match self {
-            File::Study => Ok(Study::from_document(document)?.cases),
-            File::Case => Ok(vec![Case::from_document(document)?]),
+            File::Study => Ok((Study::from_document(document)?.cases, None)),
+            File::Case => Ok((vec![Case::from_document(document)?], None)),
+            File::Pair => match Asked::from_document(document)? {
+                Asked::RigidWall(case) => Err(Error::Refused {
+                    what: format!("{}: `wall.material`", case.path.display()),
+                    found: "nothing".to_owned(),
+                    allowed: "must be there: the experiment is of a deformable wall".to_owned(),
+                }),
+                Asked::Pair(pair) => Ok((a_case_a_speed(&pair.particle), Some(pair.target))),
+            },
         }
     }
+}
+
+/// A case of each speed, named after it.
+fn a_case_a_speed(case: &Case) -> Vec<Case> {
+    let of = |velocity: &f64| Case {
+        name: format!("{} at {} m/s", case.name, significant(*velocity, 6)),
+        velocities: vec![*velocity],
+        ..case.clone()
+    };
+    case.velocities.iter().map(of).collect()
 }
 
 /// An experiment with measured or otherwise known answers.
@@ -105,6 +129,30 @@ impl Bound {
             found: value.map_or("nothing".to_owned(), digits),
             must: format!("{} ± {}", digits(middle), significant(half, 2)),
             met: value.is_some_and(|value| (value - middle).abs() <= half),
+        }
+    }
+
+    /// That `value` is at most `most`; a value that is missing is not.
+    #[must_use]
+    pub fn at_most(of: String, value: Option<f64>, most: f64) -> Self {
+        let digits = |x: f64| significant(x, 5);
+        Bound {
+            of,
+            found: value.map_or("nothing".to_owned(), digits),
+            must: format!("at most {}", digits(most)),
+            met: value.is_some_and(|value| value <= most),
+        }
+    }
+
+    /// That `value` is at least `least`; a value that is missing is not.
+    #[must_use]
+    pub fn at_least(of: String, value: Option<f64>, least: f64) -> Self {
+        let digits = |x: f64| significant(x, 5);
+        Bound {
+            of,
+            found: value.map_or("nothing".to_owned(), digits),
+            must: format!("at least {}", digits(least)),
+            met: value.is_some_and(|value| value >= least),
         }
     }
 }
@@ -287,12 +335,48 @@ experiments! {
     aerosol_copper::AerosolCopper,
     lead_nickel::LeadNickel,
     elastic_spheres::ElasticSpheres,
+    elastic_waves::ElasticWaves,
+    yield_pressure::YieldPressure,
     taylor_bar::TaylorBar,
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn one_sided_bounds_are_met_on_their_side_and_by_no_missing_value() {
+        let of = || "e".to_owned();
+        for (value, below, above) in [
+            (Some(0.9), true, false),
+            (Some(0.95), true, true),
+            (Some(0.96), false, true),
+            (None, false, false),
+        ] {
+            assert_eq!(Bound::at_most(of(), value, 0.95).met, below);
+            assert_eq!(Bound::at_least(of(), value, 0.95).met, above);
+        }
+    }
+
+    #[test]
+    fn a_deformable_wall_has_a_case_a_speed_and_the_strength_of_the_softer_body() {
+        let stated = Stated::called("yield-pressure").unwrap();
+        let document = Document::new(std::path::Path::new("yield-pressure.toml"), stated.cases);
+        let (cases, target) = stated.file.cases(&document).unwrap();
+        let names: Vec<&str> = cases.iter().map(|case| &case.name[..]).collect();
+        assert_eq!(names[0], "yield-pressure at 0.1255 m/s");
+        assert!(cases.iter().all(|case| case.velocities.len() == 1));
+        let flow = target.unwrap().material.flow.unwrap();
+        assert!((flow.yield_strength() - 1e9).abs() < 1.0 && cases[0].material.flow.is_none());
+        // one of a rigid wall is refused by the key that it lacks
+        let rigid = EXPERIMENTS
+            .iter()
+            .find(|one| one.file == File::Case)
+            .unwrap();
+        let document = Document::new(std::path::Path::new("rigid.toml"), rigid.cases);
+        let said = File::Pair.cases(&document).unwrap_err().to_string();
+        assert!(said.contains("wall.material"), "{said}");
+    }
 
     #[test]
     fn the_strength_of_a_power_law_is_found() {

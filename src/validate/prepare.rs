@@ -5,6 +5,7 @@ use super::row::{Outcome, Row};
 use super::sample::{Sampling, interval};
 use super::{Found, Stated};
 use crate::case::Case;
+use crate::case::pair::{Asked, PairCase, Target};
 use crate::document::Document;
 use crate::error::must_be_one_of;
 use crate::{Error, Result};
@@ -26,6 +27,8 @@ pub struct Prepared {
     pub entries: Vec<Entry>,
     /// Its own cases, then those with an input changed.
     pub cases: Vec<Case>,
+    /// What they meet; none: a rigid wall.
+    pub target: Option<Target>,
     own: usize,
     varied: Vec<Varied>,
 }
@@ -44,7 +47,7 @@ impl Prepared {
         cases: (&str, &Path),
         measured: (&str, &Path),
     ) -> Result<Self> {
-        let cases = stated.file.cases(&Document::new(cases.1, cases.0))?;
+        let (cases, target) = stated.file.cases(&Document::new(cases.1, cases.0))?;
         for case in &cases {
             plain(case)?;
         }
@@ -58,6 +61,7 @@ impl Prepared {
             stated,
             entries,
             cases,
+            target,
             own,
             varied: Vec::new(),
         };
@@ -83,6 +87,16 @@ impl Prepared {
             }
         }
         Ok(prepared)
+    }
+
+    /// A case of these as what it meets has it.
+    #[must_use]
+    pub fn asked(&self, case: &Case) -> Asked {
+        let particle = case.clone();
+        match self.target {
+            None => Asked::RigidWall(particle),
+            Some(target) => Asked::Pair(PairCase { particle, target }),
+        }
     }
 
     /// What was found, from the outcomes of [`Prepared::cases`]; `place` keeps the draws of experiments apart.
@@ -124,7 +138,7 @@ impl Prepared {
     }
 }
 
-/// Entries about a case: of its name, or of what its name begins with up to a comma.
+/// Entries about a case: of its name, or of what its name begins with up to a comma or a speed.
 pub(super) fn about<'a>(entries: &'a [Entry], case: &str) -> impl Iterator<Item = &'a Entry> {
     let case = case.to_owned();
     entries.iter().filter(move |entry| is_about(entry, &case))
@@ -132,7 +146,7 @@ pub(super) fn about<'a>(entries: &'a [Entry], case: &str) -> impl Iterator<Item 
 
 fn is_about(entry: &Entry, case: &str) -> bool {
     let rest = case.strip_prefix(&entry.case[..]);
-    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(", "))
+    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(", ") || rest.starts_with(" at "))
 }
 
 fn namesakes(cases: &[Case], name: &str) -> usize {

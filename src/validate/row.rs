@@ -2,6 +2,7 @@
 
 use super::measured::{Entry, Figure, Flag, Kind, Quantity};
 use crate::case::Case;
+use crate::case::pair::{PairCase, Target};
 use crate::contact::rebound::{Rebound, rebound};
 use crate::contact::{LawVisitor, NormalLaw};
 use crate::curve::{Status, Summary};
@@ -10,12 +11,15 @@ use crate::material::flow::YIELD_STRENGTH;
 use crate::theory::published::Evidence;
 use crate::theory::{FORMULAS, Theory};
 use crate::thesis::{EQUATIONS, Row as Numbers};
+use std::f64::consts::PI;
 
 /// A case and what its impact gave, SI units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outcome {
     /// The case.
     pub case: Case,
+    /// What it meets; none: a rigid wall.
+    pub target: Option<Target>,
     /// Figures of its impact.
     pub summary: Summary,
     /// Largest contact radius over R.
@@ -34,11 +38,32 @@ impl Outcome {
             Figure::Compression => of.compression_ratio,
             Figure::Strain => of.equivalent_plastic_strain,
             Figure::Force => of.max_force_n,
+            Figure::MeanPressure => {
+                let radius = self.flat * self.case.radius;
+                of.max_force_n / (PI * radius * radius) / self.strength()?
+            }
             Figure::Length => of.cylinder.as_ref()?.final_length_m,
             Figure::Foot => of.cylinder.as_ref()?.foot_diameter_m,
             Figure::Fifth => of.cylinder.as_ref()?.diameter_at_fifth_m,
         };
         (of.status == Status::Ok && value.is_finite()).then_some(value)
+    }
+
+    /// The lower of the yield strengths of the two bodies, Pa; none of elastic ones.
+    #[must_use]
+    pub fn strength(&self) -> Option<f64> {
+        let other = self.target.and_then(|target| target.material.flow);
+        let flows = [self.case.material.flow, other].into_iter().flatten();
+        flows.map(|flow| flow.yield_strength()).reduce(f64::min)
+    }
+
+    /// The sphere that meets a rigid wall as this one meets what it meets.
+    fn effective(&self) -> Case {
+        let Some(target) = self.target else {
+            return self.case.clone();
+        };
+        let particle = self.case.clone();
+        PairCase { particle, target }.effective()
     }
 
     /// Compression ratio of the spherical cap whose base has the diameter of the widest contact: what is had from a flat alone,
@@ -80,6 +105,8 @@ pub struct Row {
     pub simulation: Option<f64>,
     /// By an equation, as the source prints it.
     pub printed: Option<f64>,
+    /// What the source says that it is at least and at most.
+    pub limits: [Option<f64>; 2],
     /// Number of the thesis' equation, and its value.
     pub equation: Option<(&'static str, f64)>,
     /// Of each of [`theories`]; none where one says nothing of it.
@@ -108,6 +135,7 @@ impl Row {
         };
         let case = &outcome.case;
         let velocity = case.velocities[0];
+        let effective = outcome.effective();
         Row {
             experiment,
             case: case.name.clone(),
@@ -121,8 +149,13 @@ impl Row {
             }),
             simulation: entry(Kind::Simulation).and_then(|one| one.value),
             printed: entry(Kind::Equation).and_then(|one| one.value),
-            equation: equation(&case.material, case.radius, velocity, figure),
-            theories: of_theories(&case.material, case.radius, velocity, figure),
+            limits: [Kind::AtLeast, Kind::AtMost].map(|kind| entry(kind)?.value),
+            // fitted to impacts on a rigid wall
+            equation: match outcome.target {
+                None => equation(&case.material, case.radius, velocity, figure),
+                Some(_) => None,
+            },
+            theories: of_theories(&effective.material, effective.radius, velocity, figure),
             ours: outcome.figure(figure),
             interval,
             by_cap: (figure == Figure::Compression)
@@ -209,7 +242,11 @@ fn of_theories(
             // a law knows the centre of mass; to first order the height lost is the same
             Figure::Compression => hit.residual_displacement / diameter,
             Figure::Force => hit.max_force,
-            Figure::Strain | Figure::Length | Figure::Foot | Figure::Fifth => return None,
+            Figure::Strain
+            | Figure::MeanPressure
+            | Figure::Length
+            | Figure::Foot
+            | Figure::Fifth => return None,
         };
         // far beyond what it was made for a law flattens a body by more than its diameter
         let whole = match figure {

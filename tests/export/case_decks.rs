@@ -20,6 +20,10 @@ velocities = ["10 m/s", "50 m/s"]
 tolerance = 0.02
 "#;
 
+/// A half-space of another metal below it.
+const WALL: &str =
+    "[wall.material]\ndensity = \"2700 kg/m3\"\nyoung_modulus = \"70 GPa\"\npoisson_ratio = 0.3\n";
+
 /// `export --to calculix` of a case, with more arguments.
 fn exported(case: &str, more: &[&str]) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
@@ -153,7 +157,6 @@ fn hardening_stands_in_a_table_and_an_elastic_body_has_none() {
 #[test]
 fn what_a_deck_cannot_say_is_refused_by_name_and_nothing_is_written() {
     let rate = "yield_strength = \"1.25 GPa\"\nhardening_coefficient = \"300 MPa\"\nhardening_exponent = 0.3\nrate_sensitivity = 0.02\n";
-    let target = "[wall.material]\ndensity = \"2700 kg/m3\"\nyoung_modulus = \"70 GPa\"\npoisson_ratio = 0.3\n";
     let cases = [
         (format!("{CASE}[wall]\nfriction = 0.3\n"), "`wall.friction`"),
         (
@@ -168,7 +171,14 @@ fn what_a_deck_cannot_say_is_refused_by_name_and_nothing_is_written() {
             "`particle.shape`",
         ),
         (format!("{CASE}[scheme]\npreset = \"flip\"\n"), "`scheme"),
-        (format!("{CASE}{target}"), "`wall.material`"),
+        (
+            format!("{CASE}[wall]\nradius = \"1 mm\"\n{WALL}"),
+            "`wall.radius`",
+        ),
+        (
+            format!("{CASE}{WALL}{rate}"),
+            "`wall.material.rate_sensitivity`",
+        ),
         (
             CASE.replace("yield_strength = \"1.25 GPa\"\n", rate),
             "`material.rate_sensitivity`",
@@ -221,23 +231,21 @@ fn what_a_deck_cannot_say_is_refused_by_name_and_nothing_is_written() {
 }
 
 /// Force of a slow deck at each displacement of the mean, both as the deck's units have them, as `ccx` finds them.
-fn run(folder: &Path) -> Option<Vec<[f64; 2]>> {
+fn run(folder: &Path, name: &str) -> Option<Vec<[f64; 2]>> {
     let there = Command::new("ccx").arg("-v").output().is_ok();
     if !there {
         eprintln!("SKIPPED: CalculiX (`ccx`) is not installed; Debian has it as calculix-ccx");
         return None;
     }
     let mut command = Command::new("ccx");
-    command.args(["-i", "flattening"]).current_dir(folder);
+    command.args(["-i", name]).current_dir(folder);
     let output = command.env("OMP_NUM_THREADS", "1").output().unwrap();
     let said = String::from_utf8_lossy(&output.stdout).into_owned();
     assert!(said.contains("Job finished"), "{said}");
     let mut rows: Vec<[f64; 2]> = Vec::new();
     let mut set = "";
-    for line in read_to_string(folder.join("flattening.dat"))
-        .unwrap()
-        .lines()
-    {
+    let printed = read_to_string(folder.join(format!("{name}.dat"))).unwrap();
+    for line in printed.lines() {
         if let Some((_, name)) = line.split_once("set ") {
             set = if name.starts_with("PLANE") {
                 "PLANE"
@@ -261,14 +269,12 @@ fn run(folder: &Path) -> Option<Vec<[f64; 2]>> {
     Some(rows)
 }
 
-#[test]
-fn calculix_presses_an_elastic_sphere_as_hertz_says() {
-    let elastic = CASE.replace("yield_strength = \"1.25 GPa\"\n", "");
-    let folder = exported(&elastic, &["--flattening", "1e-4", "--cells", "8"]);
+/// Forces over Hertz's of an elastic deck of ten increments, without the way back.
+fn beside_hertz(case: &str, name: &str, modulus: f64) -> Option<Vec<f64>> {
+    let folder = exported(case, &["--flattening", "1e-4", "--cells", "8"]);
     let folder = folder.path().join("out/calculix");
-    let deck = folder.join("flattening.inp");
+    let deck = folder.join(format!("{name}.inp"));
     let text = read_to_string(&deck).unwrap();
-    // ten increments for fifty, and no way back
     let (press, _) = text.split_once("** let go").unwrap();
     let short = press.replace(
         "*STATIC\n2e-2, 1., 1e-9, 2e-2",
@@ -276,15 +282,81 @@ fn calculix_presses_an_elastic_sphere_as_hertz_says() {
     );
     assert_ne!(short, press);
     std::fs::write(&deck, short).unwrap();
-    let Some(rows) = run(&folder) else { return };
+    let rows = run(&folder, name)?;
     assert_eq!(rows.len(), 10);
-    let stiffness = 4.0 / 3.0 * 1e5 / (1.0 - 0.35 * 0.35) * 0.25f64.sqrt();
-    let off: Vec<f64> = rows
-        .iter()
-        .map(|[d, f]| f / (stiffness * d.powf(1.5)) - 1.0)
-        .collect();
-    println!("force beside Hertz's: {off:.4?}");
+    let stiffness = 4.0 / 3.0 * modulus * 0.25f64.sqrt();
+    let off = |[d, f]: &[f64; 2]| f / (stiffness * d.powf(1.5)) - 1.0;
+    let off: Vec<f64> = rows.iter().map(off).collect();
+    println!("{name}: force beside Hertz's: {off:.4?}");
+    Some(off)
+}
+
+#[test]
+fn calculix_presses_an_elastic_sphere_as_hertz_says() {
+    let elastic = CASE.replace("yield_strength = \"1.25 GPa\"\n", "");
+    let modulus = 1e5 / (1.0 - 0.35 * 0.35);
+    let Some(off) = beside_hertz(&elastic, "flattening", modulus) else {
+        return;
+    };
     // the first contacts are one or two elements wide
     assert!(off[5..].iter().all(|off| off.abs() < 0.02), "{off:.4?}");
     assert!(off[9].abs() < 0.01, "{off:.4?}");
+}
+
+#[test]
+fn calculix_presses_an_elastic_sphere_into_an_elastic_half_space_as_hertz_says() {
+    let elastic = CASE.replace("yield_strength = \"1.25 GPa\"\n", "");
+    let elastic = format!("{elastic}{WALL}");
+    let [own, other] = [(1e5, 0.35f64), (7e4, 0.3)].map(|(e, nu)| e / (1.0 - nu * nu));
+    let modulus = own * other / (own + other);
+    let Some(off) = beside_hertz(&elastic, "indentation", modulus) else {
+        return;
+    };
+    assert!(off[5..].iter().all(|off| off.abs() < 0.02), "{off:.4?}");
+}
+
+#[test]
+fn a_deformable_wall_is_meshed_below_the_sphere_and_held_at_its_back() {
+    let case = format!("{CASE}[wall]\nthickness = \"1 mm\"\n{WALL}yield_strength = \"300 MPa\"\n");
+    let folder = exported(&case, &["--flattening", "0.02", "--cells", "6"]);
+    let text = read_to_string(folder.path().join("out/calculix/indentation.inp")).unwrap();
+    assert!(text.contains("into a frictionless plate") && !text.contains("RIGID"));
+    let cards = cards(&text);
+    let nodes: HashMap<usize, [f64; 2]> = card(&cards, "*NODE, NSET=WALL")
+        .iter()
+        .map(|line| numbers(line))
+        .map(|n| (n[0] as usize, [n[1], n[2]]))
+        .collect();
+    let of = |name: &str| -> Vec<[f64; 2]> {
+        let lines = card(&cards, name).iter();
+        lines
+            .map(|line| nodes[&(numbers(line)[0] as usize)])
+            .collect()
+    };
+    // millimetres: the back of the plate lies 1 mm below the surface, and every node of it is held
+    let back = of("*NSET, NSET=PLANE");
+    assert!(back.len() > 20 && back.iter().all(|[_, z]| *z == -1.0));
+    assert_eq!(
+        back.len(),
+        nodes.values().filter(|[_, z]| *z == -1.0).count()
+    );
+    let inmost = of("*NSET, NSET=INMOST");
+    assert!(
+        inmost
+            .iter()
+            .all(|[r, _]| *r == inmost[0][0] && *r > 0.0 && *r < 1e-4)
+    );
+    assert_eq!(inmost[0][1], 0.0);
+    let held = card(&cards, "*BOUNDARY");
+    assert_eq!(held, ["AXIS, 1, 1", "PLANE, 1, 2", "INMOST, 1, 1"]);
+    let strengths: Vec<&str> = (cards.iter())
+        .filter(|(name, _)| name == "*PLASTIC")
+        .map(|(_, lines)| &lines[0][..])
+        .collect();
+    assert_eq!(
+        strengths,
+        ["1.2500000000e3, 0.000000e0", "3.0000000000e2, 0.000000e0"]
+    );
+    // the surface of the wall begins next to the axis and reaches beyond the contact
+    assert!(card(&cards, "*SURFACE, NAME=WALL").len() > 8);
 }

@@ -1,8 +1,11 @@
 //! Input deck of CalculiX CrunchiX: axisymmetric quadrilaterals of eight nodes and reduced integration, penalty contact of faces,
 //! finite strains.
 
-use super::{Deck, TABOR_STRAIN, hardening, hold};
+use super::layer::Layer;
+use super::mesh::Point;
+use super::{Deck, HOLE, hardening, hold};
 use crate::law::file::plain;
+use crate::material::Material;
 use crate::unit::significant;
 use std::fmt::Write;
 
@@ -12,10 +15,6 @@ use std::fmt::Write;
 const PENALTY: f64 = 30.0;
 /// Increments of each step, at least.
 const INCREMENTS: f64 = 50.0;
-/// Way back over σ_y a/E*: recoveries are about half of it.
-const WAY_BACK: f64 = 5.0;
-/// Nearest the plane comes to the axis, in contact radii: faces that touch the axis have no normal in the code.
-const HOLE: f64 = 1e-4;
 /// Largest angle from the contact pole that may touch the plane, rad, and that over the contact radius.
 const MAY_TOUCH: (f64, f64) = (1.4, 1.6);
 
@@ -82,12 +81,14 @@ fn head(deck: &Deck<'_>, name: &str, units: &Units, out: &mut String) {
         .map_or_else(|| "elastic".to_owned(), |f| f.to_string());
     let (length, force) = (units.length.0, units.force.0);
     let radius = significant(case.radius / units.length.1, 9);
+    let (what, below) = against(deck);
     let text = format!(
-        "{name}.inp: a sphere flattened slowly by a rigid frictionless plane to delta/R = {} and let go.\n\
+        "{name}.inp: a sphere {what} delta/R = {} and let go.\n\
          Case {}; {}\n\
          Run: ccx -i {name}   (OMP_NUM_THREADS=2 for two threads)\n\
          Units: {length}, {force}, s, {}, {}.\n\
          R = {} m, rho = {} kg/m3, E = {:e} Pa, nu = {}, {flow}.\n\
+         {below}\
          Axisymmetric: r is the first coordinate, the axis of symmetry the second; first touch is the origin.\n\
          Mesh: {} elements, {} of a contact radius of {} R.\n\
          In {name}.dat, each increment: total RF of PLANE for a sector of two degrees, so F = 180 times the second number.\n\
@@ -111,6 +112,32 @@ fn head(deck: &Deck<'_>, name: &str, units: &Units, out: &mut String) {
     );
     for line in text.lines() {
         wrapped(line, out);
+    }
+}
+
+/// What the sphere is pressed against, in words, and a line on it.
+fn against(deck: &Deck<'_>) -> (String, String) {
+    match &deck.wall {
+        None => (
+            "flattened slowly by a rigid frictionless plane to".to_owned(),
+            String::new(),
+        ),
+        Some(wall) => {
+            let m = wall.material;
+            let flow = m
+                .flow
+                .map_or_else(|| "elastic".to_owned(), |f| f.to_string());
+            (
+                format!("pressed slowly into a frictionless {} to", wall.shape),
+                format!(
+                    "Below it: rho = {} kg/m3, E = {:e} Pa, nu = {}, {flow}; {} elements, held at the back.\n",
+                    m.density,
+                    m.young_modulus,
+                    m.poisson_ratio,
+                    wall.layer.elements.len()
+                ),
+            )
+        }
     }
 }
 
@@ -143,14 +170,23 @@ fn geometry(deck: &Deck<'_>, radius: f64, out: &mut String) -> usize {
     }
     let first = mesh.nodes.len() + 1;
     let inner = HOLE * deck.contact_radius;
-    out.push_str("** the plane: its upper face, from next to the axis\n*NODE, NSET=PLANE\n");
-    for (k, [r, z]) in [[inner, -0.2], [1.2, -0.2], [1.2, 0.0], [inner, 0.0]]
-        .into_iter()
-        .enumerate()
-    {
-        point(out, first + k, [r, z]);
+    let plane = [[inner, -0.2], [1.2, -0.2], [1.2, 0.0], [inner, 0.0]];
+    let below: &[Point] = match &deck.wall {
+        None => {
+            out.push_str(
+                "** the plane: its upper face, from next to the axis\n*NODE, NSET=PLANE\n",
+            );
+            &plane
+        }
+        Some(wall) => {
+            out.push_str("** the wall, from next to the axis\n*NODE, NSET=WALL\n");
+            &wall.layer.nodes
+        }
+    };
+    for (k, place) in below.iter().enumerate() {
+        point(out, first + k, *place);
     }
-    let centre = first + 4;
+    let centre = first + below.len();
     out.push_str("** carries the mean displacement; part of no element\n*NODE, NSET=CENTRE\n");
     point(out, centre, [1.0, 1.0]);
     out.push_str("*ELEMENT, TYPE=CAX8R, ELSET=BODY\n");
@@ -159,13 +195,27 @@ fn geometry(deck: &Deck<'_>, radius: f64, out: &mut String) -> usize {
         let _ = writeln!(out, "{}, {nodes}", k + 1);
     }
     let rigid = mesh.elements.len() + 1;
-    out.push_str("*ELEMENT, TYPE=CAX4, ELSET=RIGID\n");
-    let [a, b, c, d] = [0, 1, 2, 3].map(|k| first + k);
-    let _ = writeln!(out, "{rigid}, {a}, {b}, {c}, {d}");
+    match &deck.wall {
+        None => {
+            let [a, b, c, d] = [0, 1, 2, 3].map(|k| first + k);
+            let _ = writeln!(
+                out,
+                "*ELEMENT, TYPE=CAX4, ELSET=RIGID\n{rigid}, {a}, {b}, {c}, {d}"
+            );
+        }
+        Some(wall) => layer(&wall.layer, [first, rigid], out),
+    }
     out.push_str("*NSET, NSET=AXIS\n");
     for (k, _) in mesh.nodes.iter().enumerate().filter(|(_, p)| p[0] == 0.0) {
         let _ = writeln!(out, "{},", k + 1);
     }
+    surfaces(deck, rigid, out);
+    centre
+}
+
+/// Surfaces that may touch; the elements below the sphere are counted from `rigid`.
+fn surfaces(deck: &Deck<'_>, rigid: usize, out: &mut String) {
+    let mesh = &deck.mesh;
     out.push_str("*SURFACE, NAME=CONTACT, TYPE=ELEMENT\n");
     let angle = MAY_TOUCH.0.min(MAY_TOUCH.1 * deck.contact_radius);
     for (element, side) in &mesh.surface {
@@ -174,17 +224,72 @@ fn geometry(deck: &Deck<'_>, radius: f64, out: &mut String) -> usize {
             let _ = writeln!(out, "{}, S{}", element + 1, side + 1);
         }
     }
-    let _ = writeln!(out, "*SURFACE, NAME=WALL, TYPE=ELEMENT\n{rigid}, S3");
-    centre
+    out.push_str("*SURFACE, NAME=WALL, TYPE=ELEMENT\n");
+    let may_touch = |element: &&usize, layer: &Layer| {
+        let corner = layer.elements[**element][3];
+        layer.nodes[corner][0] < angle.sin()
+    };
+    match &deck.wall {
+        None => {
+            let _ = writeln!(out, "{rigid}, S3");
+        }
+        Some(wall) => {
+            let top = wall.layer.top.iter();
+            for element in top.filter(|element| may_touch(element, &wall.layer)) {
+                let _ = writeln!(out, "{}, S3", rigid + element);
+            }
+        }
+    }
 }
 
-/// Material, sections, contact and the conditions that hold all along.
+/// Elements of a wall, the nodes of its back, by whose reaction the force is read, and those next to the axis.
+fn layer(layer: &Layer, [node, element]: [usize; 2], out: &mut String) {
+    out.push_str("*ELEMENT, TYPE=CAX8R, ELSET=LAYER\n");
+    for (k, nodes) in layer.elements.iter().enumerate() {
+        let nodes = nodes.map(|n| (n + node).to_string()).join(", ");
+        let _ = writeln!(out, "{}, {nodes}", element + k);
+    }
+    for (name, nodes) in [
+        ("PLANE", layer.back().collect::<Vec<_>>()),
+        ("INMOST", layer.inmost().collect()),
+    ] {
+        let _ = writeln!(out, "*NSET, NSET={name}");
+        for n in nodes {
+            let _ = writeln!(out, "{},", n + node);
+        }
+    }
+}
+
+/// Materials, sections, contact and the conditions that hold all along.
 fn material(deck: &Deck<'_>, units: &Units, radius: f64, out: &mut String) {
     let m = &deck.case.material;
-    let modulus = units.stress(m.young_modulus);
+    constants("SOLID", m, units, out);
+    let (mut softer, mut section, mut held) = (m.young_modulus, "SOLID, ELSET=RIGID", "");
+    if let Some(wall) = &deck.wall {
+        constants("GROUND", wall.material, units, out);
+        softer = softer.min(wall.material.young_modulus);
+        (section, held) = ("GROUND, ELSET=LAYER", "\nINMOST, 1, 1");
+    }
     let _ = writeln!(
         out,
-        "*MATERIAL, NAME=SOLID\n*ELASTIC\n{modulus:.10e}, {}",
+        "*SOLID SECTION, MATERIAL=SOLID, ELSET=BODY\n*SOLID SECTION, MATERIAL={section}"
+    );
+    let cell = deck.contact_radius / deck.cells as f64 * radius;
+    let _ = writeln!(
+        out,
+        "*SURFACE INTERACTION, NAME=HARD\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n{:.10e}\n\
+         *CONTACT PAIR, INTERACTION=HARD, TYPE=SURFACE TO SURFACE\nCONTACT, WALL\n\
+         *BOUNDARY\nAXIS, 1, 1\nPLANE, 1, 2{held}",
+        PENALTY * units.stress(softer) / cell
+    );
+}
+
+/// Constants of a material.
+fn constants(name: &str, m: &Material, units: &Units, out: &mut String) {
+    let _ = writeln!(
+        out,
+        "*MATERIAL, NAME={name}\n*ELASTIC\n{:.10e}, {}",
+        units.stress(m.young_modulus),
         m.poisson_ratio
     );
     let _ = writeln!(out, "*DENSITY\n{:.10e}", units.density(m.density));
@@ -195,17 +300,6 @@ fn material(deck: &Deck<'_>, units: &Units, radius: f64, out: &mut String) {
             let _ = writeln!(out, "{stress:.10e}, {strain:.6e}");
         }
     }
-    out.push_str(
-        "*SOLID SECTION, MATERIAL=SOLID, ELSET=BODY\n*SOLID SECTION, MATERIAL=SOLID, ELSET=RIGID\n",
-    );
-    let cell = deck.contact_radius / deck.cells as f64 * radius;
-    let _ = writeln!(
-        out,
-        "*SURFACE INTERACTION, NAME=HARD\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n{:.10e}\n\
-         *CONTACT PAIR, INTERACTION=HARD, TYPE=SURFACE TO SURFACE\nCONTACT, WALL\n\
-         *BOUNDARY\nAXIS, 1, 1\nPLANE, 1, 2",
-        PENALTY * modulus / cell
-    );
 }
 
 /// The steps: the mean displacement to the flattening and back.
@@ -223,12 +317,7 @@ fn flattening(deck: &Deck<'_>, radius: f64, centre: usize, out: &mut String) {
     }
     let _ = writeln!(out, "{centre}, 2, -1.\n*BOUNDARY\nCENTRE, 1, 1");
     let most = deck.flattening;
-    let m = &deck.case.material;
-    let back = m.flow.map_or(most, |flow| {
-        let stress = flow.at_rest(TABOR_STRAIN * deck.contact_radius);
-        (WAY_BACK * stress / m.contact_modulus() * deck.contact_radius).min(most)
-    });
-    for (what, end, start) in [("press", most, 1.0), ("let go", most - back, 0.2)] {
+    for (what, end, start) in [("press", most, 1.0), ("let go", most - deck.back, 0.2)] {
         let longest = 1.0 / INCREMENTS;
         let _ = writeln!(
             out,

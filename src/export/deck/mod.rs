@@ -1,16 +1,21 @@
 //! Deck: a case as input files of a finite-element code, so that an independent program can have its say on the same question.
 //!
-//! What is written is a sphere that a rigid frictionless plane flattens slowly and lets go. A new code is a new file with its text and one line in the list of [`Code`].
+//! What is written is a sphere that a rigid frictionless plane flattens slowly and lets go; of a case with a deformable wall, the sphere
+//! pressed into the wall and drawn back. A new code is a new file with its text and one line in the list of [`Code`].
 
 mod calculix;
 pub mod hold;
+pub mod layer;
 pub mod mesh;
 
+use self::layer::Layer;
 use self::mesh::Mesh;
 use crate::case::Case;
+use crate::case::pair::{PairCase, TargetShape};
 use crate::export::source::artifact::Artifact;
 use crate::material::{Flow, Material};
 use crate::plan::estimate;
+use crate::plan::pair::pair_plan;
 use crate::unit::significant;
 use crate::{Error, Result};
 
@@ -65,9 +70,30 @@ pub struct Wanted {
     pub cells: usize,
 }
 
+/// Way back of a plane or sphere that lets go over σ_y a/E*: recoveries are about half of it.
+const WAY_BACK: f64 = 5.0;
+/// Where a half-space is cut off, and a plate at its rim, over the contact radius: the back that is held there takes 2/π of the reciprocal
+/// off an elastic indentation.
+const REACH: f64 = 200.0;
+/// Nearest the wall comes to the axis, in contact radii: faces that touch the axis have no normal in CalculiX.
+const HOLE: f64 = 1e-4;
+
+/// A deformable wall.
+struct Wall<'a> {
+    material: &'a Material,
+    /// Its mesh, in radii of the particle.
+    layer: Layer,
+    /// Name of its shape.
+    shape: &'static str,
+}
+
 /// All that a deck says, in SI units and in radii.
 struct Deck<'a> {
     case: &'a Case,
+    /// What it is pressed into; none: a rigid plane.
+    wall: Option<Wall<'a>>,
+    /// Way back after the largest flattening, over R.
+    back: f64,
     /// Largest flattening, over R.
     flattening: f64,
     /// Contact radius there, over R.
@@ -87,40 +113,116 @@ struct Deck<'a> {
 /// temperature, flattening or fineness out of their ranges.
 pub fn export(case: &Case, code: Code, wanted: Wanted, provenance: &str) -> Result<Vec<Artifact>> {
     check(case, wanted)?;
+    check_material(case, "material", &case.material)?;
     let fastest = case.velocities.iter().copied().fold(0.0, f64::max);
     let expected = estimate(&case.material, fastest).displacement;
-    let rounded = |x: f64| significant(x, 2).parse().unwrap_or(x);
-    let usual = || rounded(expected.clamp(FLATTENING[0], USUAL_FLATTENING));
-    let flattening = wanted.flattening.unwrap_or_else(usual);
-    let contact_radius = contact_radius(&case.material, flattening);
-    let across = (FINE * wanted.cells as f64).ceil();
-    let fine = contact_radius / wanted.cells as f64 * across;
+    let flattening = flattening(wanted, expected);
+    let contact_radius = contact_radius(case.material.flow.is_some(), flattening);
+    let modulus = case.material.contact_modulus();
     let deck = Deck {
         case,
+        wall: None,
+        back: way_back([case.material.flow, None], modulus, contact_radius).min(flattening),
         flattening,
         contact_radius,
         cells: wanted.cells,
-        mesh: Mesh::new(fine, across as usize),
+        mesh: sphere(contact_radius, wanted.cells),
         provenance,
     };
-    let text = match code {
-        Code::CalculiX => calculix::text(&deck, NAME),
-    };
-    let file = Artifact {
-        name: format!("{NAME}.inp"),
-        text,
-    };
-    Ok(vec![file.within(code.name())])
+    Ok(vec![written(&deck, code, "flattening")])
 }
 
-/// Name of the deck.
-const NAME: &str = "flattening";
+/// The same of a case with a deformable wall: `indentation.inp`.
+///
+/// # Errors
+/// As [`export`], of both materials; [`Error::Refused`] for a second sphere in the wall's place.
+pub fn export_pair(
+    pair: &PairCase,
+    code: Code,
+    wanted: Wanted,
+    provenance: &str,
+) -> Result<Vec<Artifact>> {
+    let (case, target) = (&pair.particle, &pair.target);
+    check(case, wanted)?;
+    check_material(case, "material", &case.material)?;
+    check_material(case, "wall.material", &target.material)?;
+    if let TargetShape::Sphere { radius } = target.shape {
+        return Err(Error::Refused {
+            what: format!("{}: `wall.radius`", case.path.display()),
+            found: format!("{radius} m"),
+            allowed: "must be left out: a deck has a plate or a half-space below the particle"
+                .to_owned(),
+        });
+    }
+    let fastest = case.velocities.iter().copied().fold(0.0, f64::max);
+    let expected = pair_plan(pair, fastest).impact.estimate.displacement;
+    let flattening = flattening(wanted, expected);
+    let flows = [case.material.flow, target.material.flow];
+    let contact_radius = contact_radius(flows.iter().any(Option::is_some), flattening);
+    let [own, other] = [&case.material, &target.material].map(Material::contact_modulus);
+    let reach = REACH * contact_radius;
+    let thickness = target.shape.thickness();
+    let depth = thickness.map_or(reach, |thickness| thickness / case.radius);
+    let layer = Layer::new(
+        HOLE * contact_radius,
+        [reach, depth],
+        contact_radius / wanted.cells as f64,
+        FINE * contact_radius,
+    );
+    let deck = Deck {
+        case,
+        wall: Some(Wall {
+            material: &target.material,
+            layer,
+            shape: target.shape.name(),
+        }),
+        back: way_back(flows, own * other / (own + other), contact_radius).min(flattening),
+        flattening,
+        contact_radius,
+        cells: wanted.cells,
+        mesh: sphere(contact_radius, wanted.cells),
+        provenance,
+    };
+    Ok(vec![written(&deck, code, "indentation")])
+}
+
+fn written(deck: &Deck<'_>, code: Code, name: &str) -> Artifact {
+    let text = match code {
+        Code::CalculiX => calculix::text(deck, name),
+    };
+    let file = Artifact {
+        name: format!("{name}.inp"),
+        text,
+    };
+    file.within(code.name())
+}
+
+/// Flattening over R: what is wanted, else what is expected.
+fn flattening(wanted: Wanted, expected: f64) -> f64 {
+    let rounded = |x: f64| significant(x, 2).parse().unwrap_or(x);
+    let usual = || rounded(expected.clamp(FLATTENING[0], USUAL_FLATTENING));
+    wanted.flattening.unwrap_or_else(usual)
+}
+
+/// Mesh of the sphere.
+fn sphere(contact_radius: f64, cells: usize) -> Mesh {
+    let across = (FINE * cells as f64).ceil();
+    Mesh::new(contact_radius / cells as f64 * across, across as usize)
+}
+
+/// Way back over R by which a contact of two bodies of these flow stresses has let go; of elastic ones more than any flattening.
+fn way_back(flows: [Option<Flow>; 2], modulus: f64, contact_radius: f64) -> f64 {
+    let stress = |flow: Flow| flow.at_rest(TABOR_STRAIN * contact_radius);
+    let softer = flows.into_iter().flatten().map(stress);
+    let softer = softer.fold(f64::INFINITY, f64::min);
+    WAY_BACK * softer / modulus * contact_radius
+}
 
 /// Contact radius over R at a flattening: Hertz's, where the body yields that of a plane cut.
-fn contact_radius(material: &Material, flattening: f64) -> f64 {
-    match material.flow {
-        None => flattening.sqrt(),
-        Some(_) => (2.0 * flattening).sqrt(),
+fn contact_radius(yields: bool, flattening: f64) -> f64 {
+    match yields {
+        false => flattening.sqrt(),
+        true => (2.0 * flattening).sqrt(),
     }
 }
 
@@ -134,20 +236,6 @@ fn check(case: &Case, wanted: Wanted) -> Result<()> {
             allowed,
         })
     };
-    let of_case = |key: &str| format!("{}: `{key}`", case.path.display());
-    if let Some(flow) = case.material.flow
-        && hardening(flow).is_none()
-    {
-        let said = |effect: &str| effect != "plasticity" && effect != "hardening";
-        let constants = flow.constants();
-        let constant = constants.iter().find(|(c, _)| said(c.effect));
-        let key = constant.map_or("yield_strength", |(constant, _)| constant.key);
-        return refuse(
-            &of_case(&format!("material.{key}")),
-            flow.name().to_owned(),
-            "must be left out: a deck holds a flow stress of the plastic strain alone".to_owned(),
-        );
-    }
     let [least, most] = FLATTENING;
     if let Some(x) = wanted.flattening
         && !(least..=most).contains(&x)
@@ -163,6 +251,23 @@ fn check(case: &Case, wanted: Wanted) -> Result<()> {
         return refuse("--cells", wanted.cells.to_string(), allowed);
     }
     Ok(())
+}
+
+/// That a deck can hold the flow stress of a material, whose table is `table` in the case file.
+fn check_material(case: &Case, table: &str, material: &Material) -> Result<()> {
+    let Some(flow) = material.flow.filter(|flow| hardening(*flow).is_none()) else {
+        return Ok(());
+    };
+    let said = |effect: &str| effect != "plasticity" && effect != "hardening";
+    let constants = flow.constants();
+    let constant = constants.iter().find(|(c, _)| said(c.effect));
+    let key = constant.map_or("yield_strength", |(constant, _)| constant.key);
+    Err(Error::Refused {
+        what: format!("{}: `{table}.{key}`", case.path.display()),
+        found: flow.name().to_owned(),
+        allowed: "must be left out: a deck holds a flow stress of the plastic strain alone"
+            .to_owned(),
+    })
 }
 
 /// Plastic strains of a table of a flow stress that knows nothing else; none of one that knows rate or temperature.

@@ -47,6 +47,7 @@ impl<S: Space, const N: usize> Keep for Points<S, N> {
             clock,
             offsets: _,
             factors: _,
+            scattered: _,
             volumes: _,
             scratch: _,
             partial: _,
@@ -127,12 +128,12 @@ impl<S: Space, const N: usize> Points<S, N> {
             let mut cold = self.cold[cell.cold as usize..].iter();
             let blocks = cell.first as usize..cell.last as usize;
             let volume =
-                |block| S::determinant(&self.gradient(cell, block, u)) * self.volumes[block];
+                |block| S::determinant(&self.gradient_of(cell, block, u)) * self.volumes[block];
             let volume: f64 = blocks.clone().map(|block| volume(block).sum()).sum();
             let mean =
                 self.moduli.volumetric_stress(volume / cell.volume) * (1.0 - self.own_volume);
             for block in blocks {
-                let f = self.gradient(cell, block, u);
+                let f = self.gradient_of(cell, block, u);
                 let j = S::determinant(&f);
                 let kinematics = Kinematics {
                     gradient: f,

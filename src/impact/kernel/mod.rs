@@ -11,12 +11,15 @@ mod inspect;
 mod matter;
 mod part;
 mod passes;
+mod scattered;
 mod shock;
 
 pub use inspect::{PointView, Warmth};
 pub use matter::{Matter, made_of};
 use part::Level;
 pub use part::Part;
+use scattered::Scattered;
+pub use scattered::{folded, loaded, spread, store};
 use shock::Shock;
 
 use crate::lanes::{Lanes, WIDTH};
@@ -98,6 +101,17 @@ const fn side(nodes: usize, directions: usize) -> usize {
 }
 
 impl<S: Space> Scratch<S> {
+    /// A deformation, with the first guess of what is asked of its volume ratio.
+    #[inline(always)]
+    fn deform(&mut self, gradient: S::Gradient, j: Lanes) {
+        self.j = j;
+        self.kinematics = Kinematics {
+            gradient,
+            recip_j: j.recip(),
+            recip_cbrt_j: j.near_recip_cbrt(),
+        };
+    }
+
     fn virgin() -> Self {
         let one = Lanes::splat(1.0);
         Scratch {
@@ -124,6 +138,8 @@ pub struct Points<S: Space, const N: usize> {
     offsets: [usize; N],
     /// Factors of the weights, [`Self::STRIDE`] a block.
     factors: Vec<Lanes>,
+    /// Points without cells, in place of the factors; holds nothing when off.
+    scattered: Scattered,
     volumes: Vec<Lanes>,
     matter: Box<dyn Matter<S>>,
     /// Viscous stress in shocks; holds nothing when off.
@@ -147,6 +163,7 @@ impl<S: Space, const N: usize> Clone for Points<S, N> {
             levels: self.levels.clone(),
             offsets: self.offsets,
             factors: self.factors.clone(),
+            scattered: self.scattered.clone(),
             volumes: self.volumes.clone(),
             matter: self.matter.copy(),
             shock: self.shock.clone(),
@@ -224,6 +241,7 @@ impl<S: Space, const N: usize> Points<S, N> {
             levels: vec![Level::default()],
             offsets,
             factors: Vec::new(),
+            scattered: Scattered::default(),
             volumes: Vec::new(),
             matter,
             partial: Vec::new(),
@@ -325,6 +343,7 @@ impl<S: Space, const N: usize> Points<S, N> {
         }
         size(&self.cells)
             + size(&self.factors)
+            + self.scattered.bytes()
             + size(&self.volumes)
             + self.matter.bytes()
             + self.shock.bytes()

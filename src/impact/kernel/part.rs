@@ -44,6 +44,9 @@ impl<S: Space, const N: usize> Points<S, N> {
         force: &mut [S::Vector],
     ) -> Sweep {
         let cells = self.range(part);
+        if self.scattered.is_on() {
+            return self.sweep_scattered(cells, purpose, u, force);
+        }
         if let Part::Level(level @ 1..) = part {
             return self.sweep_nodes(level, cells, purpose, u, force);
         }

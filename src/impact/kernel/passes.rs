@@ -6,16 +6,24 @@
 //! once, and a fifth (three dimensions) to a half of the memory is read that the products would take.
 
 use crate::impact::kernel::{Cell, Points, Purpose, Sweep};
-use crate::lanes::Lanes;
+use crate::lanes::{Lanes, WIDTH};
 use crate::space::{Space, Symmetric};
 use std::ops::Range;
 
 /// Sums on the way through the points.
-struct Tally {
+pub(super) struct Tally {
     elastic: f64,
     plastic: Lanes,
     shock: Lanes,
     least: Lanes,
+}
+
+impl Tally {
+    /// A volume ratio was seen.
+    #[inline(always)]
+    pub(super) fn see(&mut self, j: Lanes) {
+        self.least = self.least.zip(j, |a, b| if b >= a { a } else { b });
+    }
 }
 
 /// Vector instructions that a sweep is compiled for.
@@ -69,16 +77,23 @@ impl<S: Space, const N: usize> Points<S, N> {
             shock: Lanes::default(),
             elastic: 0.0,
         };
+        let scattered = Self::SIDE == WIDTH && self.scattered.is_on();
         let mut from = cells.start;
         while from < cells.end {
             let to = self.batch(from, cells.end);
-            self.gather(from..to, u, &mut tally);
+            match scattered {
+                true => self.gather_scattered(from..to, u, &mut tally),
+                false => self.gather(from..to, u, &mut tally),
+            }
             if self.shock.is_on() && purpose.moves() {
                 self.damp(from..to, &mut tally);
             }
             self.respond(from..to, purpose, vectors);
             self.answer(from..to, purpose, &mut tally);
-            self.scatter(from..to);
+            match scattered {
+                true => self.scatter_scattered(from..to),
+                false => self.scatter(from..to),
+            }
             from = to;
         }
         Sweep {
@@ -112,13 +127,9 @@ impl<S: Space, const N: usize> Points<S, N> {
             for block in cell.first as usize..cell.last as usize {
                 let gradient = self.gradient(&cell, block, u);
                 let j = S::determinant(&gradient);
-                tally.least = tally.least.zip(j, |a, b| if b >= a { a } else { b });
+                tally.see(j);
                 volume += j * self.volumes[block];
-                let scratch = &mut self.scratch[at];
-                scratch.kinematics.gradient = gradient;
-                scratch.j = j;
-                scratch.kinematics.recip_j = j.recip();
-                scratch.kinematics.recip_cbrt_j = j.near_recip_cbrt();
+                self.scratch[at].deform(gradient, j);
                 at += 1;
             }
             self.cells[index].dilatation = volume.sum() / cell.volume;

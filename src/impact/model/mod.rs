@@ -9,7 +9,7 @@ use crate::impact::points::section::{SectionPoint, SurfacePoint, clip_cell, meri
 use crate::impact::wall::attraction::Attraction;
 use crate::impact::wall::contact_point::ContactPoint;
 use crate::impact::wall::meridian::{Contact, Wall};
-use crate::plan::{Grid, graded};
+use crate::plan::{Grid, Remedies, graded};
 use crate::scheme::Layout;
 use crate::shape::Shape;
 use crate::space::{Axisymmetric, Space};
@@ -108,12 +108,18 @@ pub fn build_attracted<const P: usize, const N: usize, A: Attraction>(
     let own_volume = remedies.own_volume;
     let shocks = remedies.shocks.then_some(grid.dt_share);
     let mut points = Points::new(matter, section.offsets(), own_volume, shocks);
-    for (c, cell) in carried
-        .iter()
-        .enumerate()
-        .filter(|(_, cell)| !cell.is_empty())
-    {
-        points.push_cell(section.first_node(c), section.least_side(c), cell);
+    let filled = carried.iter().enumerate();
+    let filled = filled.filter(|(_, cell)| !cell.is_empty());
+    if is_scattered(P, layout, remedies) {
+        let of = |(c, cell): (usize, &Vec<Point<N>>)| {
+            let node = section.first_node(c);
+            cell.iter().map(|p| (node, *p)).collect::<Vec<_>>()
+        };
+        points.push_scattered(grid.fine, &filled.flat_map(of).collect::<Vec<_>>());
+    } else {
+        for (c, cell) in filled {
+            points.push_cell(section.first_node(c), section.least_side(c), cell);
+        }
     }
     let mass = points.scaled_mass(section.nodes(), |p| {
         let [r, z, _] = p.position;
@@ -164,6 +170,16 @@ pub fn build_attracted<const P: usize, const N: usize, A: Attraction>(
         copies: 1.0,
         mass,
     }
+}
+
+/// Whether points are better off without cells: those of a lattice on splines of degree `degree`, whose nodes fill the lanes, where nothing is
+/// done with a mean over a cell or its strength.
+fn is_scattered(degree: usize, layout: Layout, remedies: &Remedies) -> bool {
+    let own = Remedies {
+        own_volume: 1.0,
+        ..Remedies::NONE
+    };
+    degree == 3 && layout != Layout::Fitted && *remedies == own
 }
 
 /// Points by the cell that holds them.

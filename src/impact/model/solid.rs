@@ -5,7 +5,7 @@
 
 use crate::impact::grid::volume::Volume;
 use crate::impact::kernel::{Matter, Point, Points};
-use crate::impact::model::Model;
+use crate::impact::model::{Model, is_scattered};
 use crate::impact::points::ball::{BallPoint, clip, surface};
 use crate::impact::points::lattice;
 use crate::impact::wall::surface::{Friction, Patch};
@@ -92,14 +92,20 @@ pub fn build<F: Friction, const P: usize, const N: usize>(
     let copies = if geometry == Geometry::Half { 2.0 } else { 4.0 };
     let offsets = volume.offsets::<N>();
     let mut points = Points::new(matter, offsets, grid.remedies.own_volume, None);
+    let scattered = is_scattered(P, mesh.layout, &grid.remedies);
+    let mut all = Vec::new();
     for (c, inside) in mesh.inside(&volume).iter().enumerate() {
         let index = volume.index(c);
         let point = |p: &BallPoint| volume.point(index, p.position, copies * p.volume);
         let cell: Vec<Point<N>> = inside.iter().map(point).collect();
-        if !cell.is_empty() {
-            points.push_cell(volume.node(index), grid.fine, &cell);
+        let node = volume.node(index);
+        if scattered {
+            all.extend(cell.into_iter().map(|p| (node, p)));
+        } else if !cell.is_empty() {
+            points.push_cell(node, grid.fine, &cell);
         }
     }
+    points.push_scattered(grid.fine, &all);
     let mass = points.nodal_mass(volume.nodes());
     let recip_mass = volume.recip_mass(&mass);
     let mut contact = Patch::new(friction, offsets, contact_tolerance);

@@ -38,6 +38,9 @@ pub(in crate::impact) const COVERED: f64 = 0.5;
 /// The same where large deformation squeezes single cells much faster than the body.
 const COVERED_LARGE: f64 = 0.1;
 
+/// Way that the centre of mass can have gone, in ways at the impact speed: more than one by what rounding and an unstable run may add.
+const MOST_FALLEN: f64 = 1.5;
+
 /// Where an impact began: of a first one all zero.
 #[derive(Debug, Clone, Copy, Default)]
 struct Start {
@@ -296,7 +299,13 @@ where
     /// Spread into a sheet that has no height left to fall and hardly falls: it will not come back.
     fn is_flat(&self) -> bool {
         let tolerance = self.plan.tolerance;
-        let left = 0.5 * self.plan.grid.shape.height() + self.mean(&self.u, S::NORMAL);
+        let height = 0.5 * self.plan.grid.shape.height();
+        // the wall only ever pushes it back: so far it can have fallen, and a mean over all nodes is dear in three dimensions
+        let fallen = MOST_FALLEN * self.speed * self.time;
+        if height + self.start.height - fallen > tolerance {
+            return false;
+        }
+        let left = height + self.mean(&self.u, S::NORMAL);
         let sinking = -self.mean(&self.v, S::NORMAL) / self.speed;
         left < tolerance && (0.0..0.5 * tolerance).contains(&sinking)
     }

@@ -3,7 +3,9 @@
 //! The crate's own scheme is `()`: velocity stays on the nodes. The others exist to show what transfers cost and lose.
 //! Nodal displacements grow by the mapped velocity, as in the thesis (equations 3-6 to 3-11).
 
-use crate::impact::kernel::Point;
+use crate::impact::kernel::{Point, folded, loaded, spread, store};
+use crate::lanes::{Lanes, WIDTH};
+use crate::space::Flat;
 use crate::tape::{Keep, Tape, keep_fields};
 
 /// A step that has ended, before velocities are mapped; nodal fields.
@@ -48,19 +50,20 @@ impl<V> Remap<V> for () {
 
 /// A point that carries velocity.
 #[derive(Debug, Clone, Copy)]
-struct Carrier<const N: usize> {
+struct Carrier {
     node: usize,
-    values: [f64; N],
     mass: f64,
     velocity: [f64; 3],
 }
 
-keep_fields!(impl [const N: usize] Carrier<N>: velocity; rebuilt node, values, mass);
+keep_fields!(Carrier: velocity; rebuilt node, mass);
 
 /// The points of a run and their way to the nodes.
 #[derive(Debug, Clone)]
 pub struct Carriers<V, const N: usize> {
-    carriers: Vec<Carrier<N>>,
+    carriers: Vec<Carrier>,
+    /// Values of the functions of its nodes, of each.
+    values: Vec<[f64; N]>,
     offsets: [usize; N],
     mapped: Vec<V>,
     travel: Vec<V>,
@@ -76,12 +79,12 @@ impl<V: Copy + Default + AsRef<[f64]> + AsMut<[f64]>, const N: usize> Carriers<V
         }
         let carry = |(node, p): &(u32, Point<N>)| Carrier {
             node: *node as usize,
-            values: p.values,
             mass: p.volume,
             velocity: start,
         };
         Carriers {
             carriers: points.iter().map(carry).collect(),
+            values: points.iter().map(|(_, p)| p.values).collect(),
             offsets,
             mapped: vec![V::default(); nodes],
             travel: vec![V::default(); nodes],
@@ -92,19 +95,24 @@ impl<V: Copy + Default + AsRef<[f64]> + AsMut<[f64]>, const N: usize> Carriers<V
     fn deposit(&mut self, step: &StepEnd<V>, v: &mut [V]) -> f64 {
         let mut gain = 0.0;
         for (n, v) in v.iter_mut().enumerate() {
+            // of a node by itself, so that additions of different nodes do not wait for each other
+            let mut own = 0.0;
             for (k, v) in v.as_mut().iter_mut().enumerate() {
                 let new = self.mapped[n].as_ref()[k] * step.recip_mass[n].as_ref()[k];
-                gain += 0.5 * step.mass[n] * (new * new - *v * *v)
+                own += 0.5 * step.mass[n] * (new * new - *v * *v)
                     + 0.5 * step.dt * step.force[n].as_ref()[k] * (*v - new);
                 self.travel[n].as_mut()[k] += step.dt * *v;
                 *v = new;
             }
+            gain += own;
         }
         gain
     }
 
     fn size(&self) -> usize {
-        std::mem::size_of_val(&self.carriers[..]) + 2 * std::mem::size_of_val(&self.mapped[..])
+        std::mem::size_of_val(&self.carriers[..])
+            + std::mem::size_of_val(&self.values[..])
+            + 2 * std::mem::size_of_val(&self.mapped[..])
     }
 }
 
@@ -113,6 +121,7 @@ impl<V: Keep, const N: usize> Keep for Carriers<V, N> {
         let Self {
             carriers,
             travel,
+            values: _,
             offsets: _,
             mapped: _,
         } = self;
@@ -124,6 +133,7 @@ impl<V: Keep, const N: usize> Keep for Carriers<V, N> {
         let Self {
             carriers,
             travel,
+            values: _,
             offsets: _,
             mapped: _,
         } = self;
@@ -132,7 +142,7 @@ impl<V: Keep, const N: usize> Keep for Carriers<V, N> {
     }
 }
 
-keep_fields!(impl [V: Keep, const N: usize] Blend<V, N>: carriers; rebuilt flip);
+keep_fields!(impl [V: Keep, const N: usize] Blend<V, N>: carriers; rebuilt flip, rows);
 keep_fields!(impl [V: Keep, const N: usize] Apic<V, N>: carriers; rebuilt arms);
 
 /// The transfer a plan asks for, chosen once a step: the loops over points are those of the variants, and the solver
@@ -167,7 +177,7 @@ impl<V: Keep, const N: usize> Keep for Exchange<V, N> {
 
 impl<V, const N: usize> Remap<V> for Exchange<V, N>
 where
-    V: Copy + Default + Keep + AsRef<[f64]> + AsMut<[f64]>,
+    V: Copy + Default + Keep + Flat + AsRef<[f64]> + AsMut<[f64]>,
 {
     fn remap(&mut self, step: StepEnd<V>, v: &mut [V]) -> f64 {
         match self {
@@ -198,31 +208,127 @@ where
 #[derive(Debug, Clone)]
 pub struct Blend<V, const N: usize> {
     /// The points.
-    pub carriers: Carriers<V, N>,
+    carriers: Carriers<V, N>,
     /// Share $\alpha$ of FLIP.
-    pub flip: f64,
+    flip: f64,
+    /// Functions of cubic splines by rows of four nodes, in place of the values: those of the first direction, then what each row has in
+    /// common, of each point.
+    rows: Vec<f64>,
 }
 
-impl<V: Copy + Default + Keep + AsRef<[f64]> + AsMut<[f64]>, const N: usize> Remap<V>
-    for Blend<V, N>
-{
-    #[expect(
-        clippy::needless_range_loop,
-        reason = "zipped iterators are not inlined here, and took as long as the forces"
-    )]
-    fn remap(&mut self, step: StepEnd<V>, v: &mut [V]) -> f64 {
+impl<V: Copy + Default + Keep + Flat + AsRef<[f64]> + AsMut<[f64]>, const N: usize> Blend<V, N> {
+    /// Functions of a row, then rows of a point.
+    const STRIDE: usize = WIDTH + N / WIDTH;
+
+    /// For `points`, with the share `flip` of FLIP.
+    #[must_use]
+    pub fn new(mut carriers: Carriers<V, N>, points: &[(u32, Point<N>)], flip: f64) -> Self {
+        let mut rows = Vec::new();
+        if N == WIDTH.pow(V::COMPONENTS as u32) {
+            carriers.values = Vec::new();
+            for (_, point) in points {
+                let [first, second, third] = point.factors.map(|[values, _]| values);
+                rows.extend(first);
+                rows.extend((0..N / WIDTH).map(|row| match V::COMPONENTS {
+                    2 => second[row],
+                    _ => second[row % WIDTH] * third[row / WIDTH],
+                }));
+            }
+        }
+        Blend {
+            carriers,
+            flip,
+            rows,
+        }
+    }
+
+    /// Velocities of the points and momenta of the nodes, row by row, with whatever vector instructions the machine has.
+    fn by_rows(&mut self, old: &[V], new: &[V]) {
+        #[cfg(target_arch = "x86_64")]
+        if std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma")
+        {
+            // SAFETY: the features were detected on the lines above.
+            return unsafe { self.by_rows_avx2(old, new) };
+        }
+        self.by_rows_any(old, new);
+    }
+
+    /// [`Self::by_rows`] compiled for 256-bit registers.
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2,fma")]
+    fn by_rows_avx2(&mut self, old: &[V], new: &[V]) {
+        self.by_rows_any(old, new);
+    }
+
+    #[allow(clippy::needless_range_loop)] // iterators are not always inlined
+    #[inline(always)]
+    fn by_rows_any(&mut self, old: &[V], new: &[V]) {
+        let components = V::COMPONENTS;
         let Carriers {
             carriers,
             offsets,
             mapped,
             ..
         } = &mut self.carriers;
-        mapped.fill(V::default());
-        for p in carriers {
+        let (old, new, mapped) = (V::flat(old), V::flat(new), V::flat_mut(mapped));
+        for index in 0..carriers.len() {
+            let p = &mut carriers[index];
+            let f = &self.rows[index * Self::STRIDE..][..Self::STRIDE];
+            let (mut change, mut here) = ([Lanes::default(); 3], [Lanes::default(); 3]);
+            for row in 0..N / WIDTH {
+                let at = (p.node + offsets[row * WIDTH]) * components;
+                let old = &old[at..][..WIDTH * components];
+                let new = &new[at..][..WIDTH * components];
+                let weight = Lanes::splat(f[WIDTH + row]);
+                for k in 0..components {
+                    let now = loaded(new, k);
+                    change[k] = (now - loaded(old, k)).mul_add(weight, change[k]);
+                    here[k] = now.mul_add(weight, here[k]);
+                }
+            }
+            let values = spread(&f[..WIDTH], components);
+            let change = folded(&change, &values, components);
+            let here = folded(&here, &values, components);
+            for k in 0..components {
+                p.velocity[k] =
+                    self.flip * (p.velocity[k] + change[k]) + (1.0 - self.flip) * here[k];
+            }
+            let mut terms = [Lanes::default(); 3];
+            for k in 0..components {
+                let of = |lane: usize| p.mass * p.velocity[(WIDTH * k + lane) % components];
+                terms[k] = values[k] * Lanes::each(of);
+            }
+            for row in 0..N / WIDTH {
+                let at = (p.node + offsets[row * WIDTH]) * components;
+                let to = &mut mapped[at..][..WIDTH * components];
+                let weight = Lanes::splat(f[WIDTH + row]);
+                for k in 0..components {
+                    let sum = terms[k].mul_add(weight, loaded(to, k));
+                    store(to, k, sum);
+                }
+            }
+        }
+    }
+
+    /// The same node by node.
+    #[allow(
+        clippy::needless_range_loop,
+        reason = "zipped iterators are not inlined here, and took as long as the forces"
+    )]
+    fn by_nodes(&mut self, old: &[V], new: &[V]) {
+        let Carriers {
+            carriers,
+            values,
+            offsets,
+            mapped,
+            ..
+        } = &mut self.carriers;
+        for index in 0..carriers.len() {
+            let (p, values) = (&mut carriers[index], &values[index]);
             let (mut change, mut here) = ([0.0; 3], [0.0; 3]);
             for n in 0..N {
-                let (value, node) = (p.values[n], p.node + offsets[n]);
-                let (new, old) = (v[node].as_ref(), step.old[node].as_ref());
+                let (value, node) = (values[n], p.node + offsets[n]);
+                let (new, old) = (new[node].as_ref(), old[node].as_ref());
                 for k in 0..new.len() {
                     change[k] += value * (new[k] - old[k]);
                     here[k] += value * new[k];
@@ -233,12 +339,24 @@ impl<V: Copy + Default + Keep + AsRef<[f64]> + AsMut<[f64]>, const N: usize> Rem
                     self.flip * (p.velocity[k] + change[k]) + (1.0 - self.flip) * here[k];
             }
             for n in 0..N {
-                let share = p.mass * p.values[n];
+                let share = p.mass * values[n];
                 let to = mapped[p.node + offsets[n]].as_mut();
                 for k in 0..to.len() {
                     to[k] += share * p.velocity[k];
                 }
             }
+        }
+    }
+}
+
+impl<V: Copy + Default + Keep + Flat + AsRef<[f64]> + AsMut<[f64]>, const N: usize> Remap<V>
+    for Blend<V, N>
+{
+    fn remap(&mut self, step: StepEnd<V>, v: &mut [V]) -> f64 {
+        self.carriers.mapped.fill(V::default());
+        match self.rows.is_empty() {
+            true => self.by_nodes(step.old, v),
+            false => self.by_rows(step.old, v),
         }
         self.carriers.deposit(&step, v)
     }
@@ -248,7 +366,7 @@ impl<V: Copy + Default + Keep + AsRef<[f64]> + AsMut<[f64]>, const N: usize> Rem
     }
 
     fn bytes(&self) -> usize {
-        self.carriers.size()
+        self.carriers.size() + std::mem::size_of_val(&self.rows[..])
     }
 }
 
@@ -313,14 +431,15 @@ impl<V: Copy + Default + Keep + AsRef<[f64]> + AsMut<[f64]>, const N: usize> Rem
     fn remap(&mut self, step: StepEnd<V>, v: &mut [V]) -> f64 {
         let Carriers {
             carriers,
+            values,
             offsets,
             mapped,
             ..
         } = &mut self.carriers;
         mapped.fill(V::default());
-        for (p, arms) in carriers.iter_mut().zip(&self.arms) {
+        for ((p, values), arms) in carriers.iter_mut().zip(values).zip(&self.arms) {
             let (mut mean, mut slope) = ([0.0; 3], [[0.0; 3]; 3]);
-            for ((value, offset), [dual, _]) in p.values.iter().zip(offsets.iter()).zip(arms) {
+            for ((value, offset), [dual, _]) in values.iter().zip(offsets.iter()).zip(arms) {
                 for (k, x) in v[p.node + *offset].as_ref().iter().enumerate() {
                     mean[k] += value * x;
                     for (s, d) in slope[k].iter_mut().zip(dual) {
@@ -329,7 +448,7 @@ impl<V: Copy + Default + Keep + AsRef<[f64]> + AsMut<[f64]>, const N: usize> Rem
                 }
             }
             p.velocity = mean;
-            for ((value, offset), [_, arm]) in p.values.iter().zip(offsets.iter()).zip(arms) {
+            for ((value, offset), [_, arm]) in values.iter().zip(offsets.iter()).zip(arms) {
                 let share = p.mass * value;
                 for (k, m) in mapped[p.node + *offset].as_mut().iter_mut().enumerate() {
                     let turn: f64 = slope[k].iter().zip(arm).map(|(s, x)| s * x).sum();

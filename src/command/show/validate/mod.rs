@@ -1,21 +1,20 @@
 //! What `validate` found: the table, the page, and the list in the terminal.
 
+mod drawn;
+
+use self::drawn::drawn;
 use crate::Result;
-use crate::report::chart::{Chart, Mark, Series};
-use crate::report::figure::Figure as Drawing;
 use crate::report::page::{Block, Page, Section};
-use crate::report::palette::Role;
-use crate::report::scale::Axis;
 use crate::report::table::Table;
-use crate::theory::Theory;
 use crate::unit::{engineering, prefixed, significant};
+use crate::validate::left_out::LEFT_OUT;
 use crate::validate::measured::{Figure, Flag, Quantity};
 use crate::validate::row::{Row, theories};
-use crate::validate::{Bound, Found};
+use crate::validate::{Bound, EXPERIMENTS, Found};
 use std::fmt::Write;
 
 /// Columns of the table before those of the theories.
-const COLUMNS: [&str; 19] = [
+const COLUMNS: [&str; 21] = [
     "experiment",
     "case",
     "velocity_m_s",
@@ -26,6 +25,8 @@ const COLUMNS: [&str; 19] = [
     "source",
     "thesis_simulation",
     "thesis_equation_printed",
+    "at_least",
+    "at_most",
     "equation",
     "equation_number",
     "ours",
@@ -65,6 +66,8 @@ pub fn table(found: &[Found], provenance: &str) -> Vec<u8> {
             measured.map_or(String::new(), |one| one.source.clone()),
             number(row.simulation),
             number(row.printed),
+            number(row.limits[0]),
+            number(row.limits[1]),
             number(row.equation.map(|(_, value)| value)),
             row.equation.map_or("", |(number, _)| number).to_owned(),
             number(row.ours),
@@ -147,6 +150,7 @@ fn shown(figure: Figure) -> (&'static str, &'static str) {
         Figure::Compression => ("compression ratio 1 − H_d/D", ""),
         Figure::Strain => ("equivalent plastic strain", ""),
         Figure::Force => ("largest force F*", "N"),
+        Figure::MeanPressure => ("mean pressure over the yield strength", ""),
         Figure::Length => ("final length", "m"),
         Figure::Foot => ("diameter of the foot", "m"),
         Figure::Fifth => ("diameter at a fifth of the initial length", "m"),
@@ -163,7 +167,7 @@ pub fn page(found: &[Found], provenance: &str) -> Result<Page> {
     let mut page = Page {
         title: "Beside what was measured".to_owned(),
         summary: format!(
-            "{met} of {} stated bounds are met. Ours are impacts on a rigid wall by the material point method; nothing is fitted to what was measured.",
+            "{met} of {} stated bounds are met. Ours are impacts by the material point method, on a rigid wall where nothing else is said; nothing is fitted to what was measured.",
             all.len()
         ),
         sections: Vec::new(),
@@ -173,7 +177,10 @@ pub fn page(found: &[Found], provenance: &str) -> Result<Page> {
     for one in found {
         page = page.with(section(one)?);
     }
-    Ok(page)
+    Ok(match found.len() == EXPERIMENTS.len() {
+        true => page.with(left_out()),
+        false => page,
+    })
 }
 
 /// Bounds and coverage of all, and how to read the rest.
@@ -197,6 +204,25 @@ fn overview(found: &[Found]) -> Section {
              interval says no more than what was printed. Inside: ours lies within the uncertainty of the measured value."
                 .to_owned(),
         ))
+}
+
+/// Published impacts that are no experiment here, and why.
+fn left_out() -> Section {
+    let mut table = Table::new("", &["source", "of", "seen", "why it is not here"]);
+    table.rows = LEFT_OUT
+        .iter()
+        .map(|one| {
+            [one.source, one.of, one.seen, one.why]
+                .map(str::to_owned)
+                .into()
+        })
+        .collect();
+    Section::new("Published, and not here")
+        .with(Block::Text(
+            "What was looked for and cannot be compared: numbers that could not be read, constants that are not printed, or effects that impacts here do not have."
+                .to_owned(),
+        ))
+        .with(Block::Table(table))
 }
 
 /// An experiment.
@@ -300,6 +326,14 @@ fn compared(figure: Figure, rows: &[&Row]) -> Table {
             "thesis, printed equation".to_owned(),
             rows.iter().map(|row| dash(row.printed)).collect(),
         ),
+        (
+            "at least".to_owned(),
+            rows.iter().map(|row| dash(row.limits[0])).collect(),
+        ),
+        (
+            "at most".to_owned(),
+            rows.iter().map(|row| dash(row.limits[1])).collect(),
+        ),
     ];
     let number = rows.iter().find_map(|row| row.equation);
     if let Some((number, _)) = number {
@@ -372,100 +406,4 @@ fn by_theory(figure: Figure, rows: &[&Row]) -> Table {
         })
         .collect();
     table
-}
-
-/// What of a case's name comes after the last comma: which variant of it this is.
-fn variant(case: &str) -> &str {
-    case.rsplit_once(", ").map_or("", |(_, variant)| variant)
-}
-
-/// A figure over the speed, if anything was measured or printed of it.
-fn drawn(found: &Found, figure: Figure, rows: &[&Row]) -> Result<Vec<Drawing>> {
-    let (name, unit) = shown(figure);
-    let known = |row: &&Row| row.value().or(row.simulation).or(row.printed).is_some();
-    let alone = rows.iter().all(|row| row.velocity == rows[0].velocity);
-    if alone || !rows.iter().any(known) {
-        return Ok(Vec::new());
-    }
-    let points = |of: &dyn Fn(&Row) -> Option<f64>, kind: &str| {
-        let own = rows.iter().filter(|row| variant(&row.case) == kind);
-        let mut all: Vec<(f64, f64)> = own
-            .filter_map(|row| Some((row.velocity, of(row)?)))
-            .collect();
-        all.dedup();
-        all
-    };
-    let mut kinds: Vec<&str> = rows.iter().map(|row| variant(&row.case)).collect();
-    kinds.dedup();
-    let mut unlike: Vec<&str> = Vec::new();
-    kinds.retain(|kind| {
-        !unlike.contains(kind) && {
-            unlike.push(kind);
-            true
-        }
-    });
-    // variants of the same particles are told apart by their lines
-    let mark = match kinds.len() {
-        1 => Mark::Points,
-        _ => Mark::Line,
-    };
-    let mut series = Vec::new();
-    let mut add = |label: String, role: Role, mark: Mark, points: Vec<(f64, f64)>| {
-        if !points.is_empty() {
-            series.push(Series {
-                label,
-                role,
-                mark,
-                points,
-                supported_to: None,
-            });
-        }
-    };
-    let of = |what: &str, kind: &str| match kind {
-        "" => what.to_owned(),
-        kind => format!("{what}, {kind}"),
-    };
-    let first = kinds.first().copied().unwrap_or("");
-    let measured = points(&|row| row.value(), first);
-    add(
-        "measured".to_owned(),
-        Role::Simulation,
-        Mark::Points,
-        measured,
-    );
-    for kind in &kinds {
-        let role = match *kind == first {
-            true => Role::Law,
-            false => Role::Other,
-        };
-        add(of("ours", kind), role, mark, points(&|row| row.ours, kind));
-    }
-    for kind in &kinds {
-        let simulated = points(&|row| row.simulation, kind);
-        add(of("thesis, simulated", kind), Role::Other, mark, simulated);
-        let printed = points(&|row| row.printed, kind);
-        add(of("thesis, equation", kind), Role::Other, mark, printed);
-    }
-    let hertz = Theory::Hertz;
-    let place = theories().iter().position(|name| *name == hertz.name());
-    let by_hertz = |row: &Row| row.theories[place?];
-    let role = Role::Theory(hertz.place());
-    add(
-        hertz.name().to_owned(),
-        role,
-        mark,
-        points(&by_hertz, first),
-    );
-    let chart = Chart {
-        x: Axis::new("impact speed V", "m/s"),
-        y: Axis::new(name, unit),
-        series,
-    };
-    let file = format!("{}_{}", found.stated.name, Quantity::Figure(figure).name());
-    let caption = format!(
-        "{}: {name} ({})",
-        found.stated.title,
-        command(found.stated.name)
-    );
-    Ok(vec![Drawing::chart(file, caption, chart)?])
 }
