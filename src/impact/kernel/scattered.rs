@@ -2,12 +2,9 @@
 //!
 //! Four points that follow each other have no nodes in common there, and a block of a cell would be three quarters empty. So a block is
 //! four points of any cells, and on the way from and to the nodes the lanes are not points but the four nodes of a row of cubic splines,
-//! which lie side by side: with $a$, $b$, $c$ the functions of three directions,
-//!
-//! $$ \sum_{ijk} u_{ijk} \otimes \nabla (a_i b_j c_k) = \sum_i \Big[ a'_i \sum_{jk} u_{ijk} b_j c_k, \
-//!    a_i \sum_{jk} u_{ijk} b'_j c_k, \ a_i \sum_{jk} u_{ijk} b_j c'_k \Big] $$
-//!
-//! the sums over rows are of whole vectors, and those over $i$ are taken once a point. What is done with a mean over a cell, its
+//! which lie side by side. A function is a product of one of each direction, so displacements are first summed over the rows, each with the
+//! product of the other directions' functions or of one of their slopes, as whole vectors; the sum over the functions of the first
+//! direction or their slopes is taken once a point. What is done with a mean over a cell, its
 //! strength or its step has no place here: the volumetric stress is that of each point's own volume ratio.
 
 use super::passes::Tally;
