@@ -19,7 +19,7 @@ pub const LEFT_OUT: [LeftOut; 14] = [
         source: "Wall and others 1990",
         of: "ammonium fluorescein of 2.6 to 6.9 µm on Mo, Si, mica and a polymer, 1 to 100 m/s: e up to 0.71, no bounce below about 1 m/s",
         seen: "abstract",
-        why: "Below 20 m/s adhesion decides, which impacts here do not have; above, no strength is printed in what was seen.",
+        why: "Below 20 m/s adhesion decides, and no work of adhesion is printed in what was seen; above, no strength is.",
     },
     LeftOut {
         source: "Tellez-Medina 2010",
@@ -43,7 +43,7 @@ pub const LEFT_OUT: [LeftOut; 14] = [
         source: "Nanoscale Research Letters 2017 (s11671-017-2410-4)",
         of: "bouncing speed of adhesive spheres, √(C/ρ) (γ⁵/(E²R⁵))^(1/6), C from 0.3 to 60",
         seen: "formula",
-        why: "Adhesion, and a constant that spans two decades.",
+        why: "A constant that spans two decades bounds nothing.",
     },
     LeftOut {
         source: "Ghaednia and others 2019, as coded by others",
