@@ -140,8 +140,8 @@ fn what_knows_no_adhesion_refuses_it_by_name() {
         );
     }
     // a study has no key for it
-    let study = "[particle]\nradius = \"1 um\"\n[material]\ndensity = \"1000 kg/m3\"\nyoung_modulus = \"1 GPa\"\npoisson_ratio = 0.3\n\
-        [wall]\nwork_of_adhesion = \"100 mJ/m2\"\n[impact]\nvelocities = \"1 m/s\"\n[accuracy]\ntolerance = 0.05\n";
+    let study = "[particle]\nradius = \"1 um\"\n[material]\ndensity = [\"1 g/cc\", \"2 g/cc\"]\nyoung_modulus = \"1 GPa\"\npoisson_ratio = 0.3\n\
+        [wall]\nwork_of_adhesion = \"100 mJ/m2\"\n[impact]\nvelocities = [\"1 m/s\"]\n[accuracy]\ntolerance = 0.05\n";
     let said = refused(folder.path(), study, &["study", "c.toml"]);
     assert!(said.contains("work_of_adhesion"), "{said}");
 }

@@ -26,6 +26,8 @@ impl Layer {
     /// `inner` from it.
     #[must_use]
     pub fn new(inner: f64, [width, depth]: [f64; 2], size: f64, fine: f64) -> Self {
+        // all elements are made smaller so that they end at the width, by less than the growth: what is fine would end too soon
+        let fine = GROWTH * fine;
         let across = graded(width - inner, size, fine, GROWTH, width);
         let down = graded(depth, size, DEPTH * fine, GROWTH, depth);
         let columns = across.len();
