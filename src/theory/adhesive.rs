@@ -114,7 +114,7 @@ pub const ADHESIVE: [AdhesiveModel; 4] = [
     },
     AdhesiveModel {
         name: "thornton-ning",
-        summary: "elastic-perfectly plastic, pressure limited at first yield, 1.6 Y; energies lost to yield and adhesion added up",
+        summary: "elastic-perfectly plastic, pressure limited at 1.6 Y; losses to yield and adhesion added",
         papers: &["ThorntonNing1998"],
         // its constants follow from jkr and thornton; the equations were seen in one source
         evidence: Evidence::Unverified,
