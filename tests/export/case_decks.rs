@@ -304,6 +304,7 @@ fn calculix_presses_an_elastic_sphere_as_hertz_says() {
 }
 
 #[test]
+#[ignore = "a minute or two of a core, in CalculiX"]
 fn calculix_presses_an_elastic_sphere_into_an_elastic_half_space_as_hertz_says() {
     let elastic = CASE.replace("yield_strength = \"1.25 GPa\"\n", "");
     let elastic = format!("{elastic}{WALL}");
